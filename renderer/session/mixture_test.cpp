@@ -100,12 +100,7 @@ TEST(Mixtures, GiveTheSameBitsHoweverPathsAreTraced) {
                              R"(, {"bxdf": "microfacet_reflection", "alpha": 0.4,
                                    "weight": [0.8, 0.8, 0.8])" +
                              rest(keys) + "}");
-    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
-    for (const char *assignment :
-         {"device.pipeline=megakernel", "device.path_layout=interleaved", "device.features=all"}) {
-        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
-            << assignment;
-    }
+    test::expect_same_bits_however_traced(scene);
 }
 
 TEST(Mixtures, SumToAtMostOneForEveryTexel) {

@@ -105,13 +105,7 @@ TEST(BumpMaps, TiltTheNormalByTheirSlope) {
 
 TEST(NormalMaps, GiveTheSameBitsHoweverPathsAreTraced) {
     write_normal();
-    const Scene scene = wall(normals, 60);
-    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
-    for (const char *assignment :
-         {"device.pipeline=megakernel", "device.path_layout=interleaved", "device.features=all"}) {
-        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
-            << assignment;
-    }
+    test::expect_same_bits_however_traced(wall(normals, 60));
 }
 
 TEST(NormalMaps, CanBeEditedInASession) {

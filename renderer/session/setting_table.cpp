@@ -119,7 +119,7 @@ const std::vector<Setting> &image_setting_table() {
          "at mirrors and smooth glass, throughput below which Russian roulette may end a path; 1: "
          "always (thesis)"},
         {"integrator.roulette_event", CountSetting{&S::roulette_event, largest_count},
-         "first scattering event at which Russian roulette may end a path; 1: at all (thesis)"},
+         "first scattering event at which Russian roulette may end a path; the thesis has 1"},
         {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
          "throughput below which adaptive termination ends a path"},
         {"integrator.light_selection", choice(&S::light_selection, light_selections),

@@ -88,13 +88,7 @@ TEST(VertexColours, MeetTheSameVerticesInMirroredInstances) {
 }
 
 TEST(VertexColours, GiveTheSameBitsHoweverPathsAreTraced) {
-    const Scene scene = painted(colours({0.1, 0.6, 0.9}));
-    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
-    for (const char *assignment :
-         {"device.pipeline=megakernel", "device.path_layout=interleaved", "device.features=all"}) {
-        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
-            << assignment;
-    }
+    test::expect_same_bits_however_traced(painted(colours({0.1, 0.6, 0.9})));
 }
 
 TEST(VertexColours, CanBeEditedInASession) {

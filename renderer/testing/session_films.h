@@ -46,6 +46,17 @@ inline std::vector<int64_t> film_words(const Scene &scene, const RenderSettings 
     return film_words(session, 4);
 }
 
+/// Expects the same bits of a scene from one kernel for full paths, from another layout of paths,
+/// and with all features compiled.
+inline void expect_same_bits_however_traced(const Scene &scene) {
+    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
+    for (const char *assignment :
+         {"device.pipeline=megakernel", "device.path_layout=interleaved", "device.features=all"}) {
+        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
+            << assignment;
+    }
+}
+
 /// Expects the mean of the red channel within 5 standard errors and a fraction `bias` of it.
 inline void expect_mean(const Scene &scene, const RenderSettings &settings, double expected,
                         double bias, const std::string &what = "") {

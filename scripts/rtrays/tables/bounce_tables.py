@@ -5,7 +5,7 @@ from rtrays.documents.document import value
 from rtrays.documents.measurements import contestant_of, published_rows, rivals_of
 from rtrays.tables.cells import NONE, interval
 from rtrays.tables.table import Table
-from rtrays.tables.text import mesh_name, mesh_note, samples_of, size_of
+from rtrays.tables.text import absent_note, mesh_name, mesh_note, samples_of, size_of
 
 
 def depth_rows(run):
@@ -23,13 +23,11 @@ def means_table(run, rivals):
         [f"{value(mean, 'max_depth') - 1}", *(f"{mean[rival]:.2f}" for rival in rivals)]
         for mean in run.get("summary.wavefront_over")
     ]
-    absent = {peer for row in run.get("rows") for peer in value(row, "absent_peers")}
-    missing = f"Omitted because they are not installed: {', '.join(sorted(absent))}."
     return Table(
         "Speed of the wavefront over each program, geometric means over the scenes",
         ["bounces", *rivals],
         rows,
-        [missing if absent else ""],
+        [absent_note(run)],
     )
 
 

@@ -13,13 +13,7 @@ from rtrays.documents.renderers import (
 )
 from rtrays.tables.cells import NONE, interval
 from rtrays.tables.table import Table
-from rtrays.tables.text import name, samples_of, size_of
-
-
-def absent_note(run):
-    """Returns the sentence that lists the renderers that are not installed."""
-    absent = {peer for row in run.get("rows") for peer in value(row, "absent_peers")}
-    return f"Omitted because they are not installed: {', '.join(sorted(absent))}." if absent else ""
+from rtrays.tables.text import absent_note, name, samples_of, size_of
 
 
 def best_table(run):

@@ -3,6 +3,7 @@
 
 import re
 
+from rtrays.documents.document import value
 from rtrays.tables.cells import NONE
 
 PROCEDURAL = re.compile(r"(scattered|landscape|hall|court|city)_\d+")
@@ -56,6 +57,12 @@ def span(values, form="{:.2f}"):
     """Returns "from A to B", or one number if both read the same."""
     low, high = form.format(min(values)), form.format(max(values))
     return low if low == high else f"{low} to {high}"
+
+
+def absent_note(run):
+    """Returns the sentence that lists the renderers that are not installed, or nothing."""
+    absent = {peer for row in run.get("rows") for peer in value(row, "absent_peers")}
+    return f"Omitted because they are not installed: {', '.join(sorted(absent))}." if absent else ""
 
 
 def size_of(run):

@@ -16,7 +16,7 @@
 #include "experiments/harness/kinds/measurements/plans.h"
 #include "renderer/base/resources.h"
 #include "renderer/import/load_scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/session/shared_scenes.h"
 
 namespace rtrays {
 
@@ -68,8 +68,9 @@ class SceneContest {
                                   "embree", settings.width, settings.height, name});
         scene_.set_film_size(settings.width, settings.height);
         fs::create_directories(folder_);
+        SharedScenes scenes(scene_, device);
         for (const RenderSettings &own : own_settings(settings.width, settings.height)) {
-            add_own(own, device);
+            add_own(own, scenes);
         }
         for (const std::string &kind : settings.peers) {
             add_peer(kind);
@@ -106,8 +107,8 @@ class SceneContest {
                                 {"mse", mse}});
     }
 
-    void add_own(const RenderSettings &settings, DeviceContext &device) {
-        auto session = std::make_shared<RenderSession>(scene_, settings, device);
+    void add_own(const RenderSettings &settings, SharedScenes &scenes) {
+        auto session = std::make_shared<RenderSession>(scenes.session(settings));
         session->render(0, settings_.spp);  // touches all memory
         const std::string name = CurveDescription{settings}.id();
         contestants_.push_back({{"name", name},
