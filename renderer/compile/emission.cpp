@@ -92,10 +92,8 @@ EmissionMeans::EmissionMeans(const TextureArrays &textures, uint32_t texture, co
             double value = 0;
             for (size_t c = 0; c < 3; ++c) {
                 const size_t at = 3 * ((height_ - 1 - y) * width_ + x) + c;
-                double texel = image.bytes.empty() ? static_cast<double>(image.floats[at])
-                                                   : image.bytes[at] / 255.0;
-                texel = image.srgb ? srgb_decoded(texel) : texel;
-                value += static_cast<double>(radiance[static_cast<Eigen::Index>(c)]) * texel / 3;
+                value += static_cast<double>(radiance[static_cast<Eigen::Index>(c)]) *
+                         decoded_channel(image, at) / 3;
             }
             row += value;
             row_positive += value > 0 ? 1 : 0;

@@ -14,13 +14,7 @@ namespace {
 Eigen::Vector3d texel(const TextureImage &image, size_t index) {
     Eigen::Vector3d values;
     for (Eigen::Index c = 0; c < 3; ++c) {
-        const size_t at = 3 * index + static_cast<size_t>(c);
-        if (image.bytes.empty()) {
-            values[c] = static_cast<double>(image.floats[at]);
-        } else {
-            const double value = image.bytes[at] / 255.0;
-            values[c] = image.srgb ? srgb_decoded(value) : value;
-        }
+        values[c] = decoded_channel(image, 3 * index + static_cast<size_t>(c));
     }
     return values;
 }

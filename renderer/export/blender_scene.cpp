@@ -33,11 +33,7 @@ double darkest_texel(const TextureImage &image) {
     for (size_t i = 0; i < texels; ++i) {
         Eigen::Vector3d rgb;
         for (size_t c = 0; c < 3; ++c) {
-            const double value = image.floats.empty()
-                                     ? image.bytes[3 * i + c] / 255.0
-                                     : static_cast<double>(image.floats[3 * i + c]);
-            rgb[static_cast<Eigen::Index>(c)] =
-                image.floats.empty() && image.srgb ? srgb_decoded(value) : value;
+            rgb[static_cast<Eigen::Index>(c)] = decoded_channel(image, 3 * i + c);
         }
         darkest = std::min(darkest, luminance(rgb));
     }
@@ -316,12 +312,9 @@ class SceneWriter {
         if (file.empty()) {
             TextureImage linear = *image;
             if (linear.floats.empty()) {
-                linear.floats.resize(linear.bytes.size());
-                std::transform(linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(),
-                               [&](uint8_t byte) {
-                                   return static_cast<float>(
-                                       linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
-                               });
+                for (size_t i = 0; i < linear.bytes.size(); ++i) {
+                    linear.floats.push_back(static_cast<float>(decoded_channel(*image, i)));
+                }
                 linear.bytes.clear();
             }
             const std::filesystem::path path = folder_.new_file(name, ".exr");

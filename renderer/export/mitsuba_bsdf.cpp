@@ -487,10 +487,9 @@ std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight,
         written.floats.resize(3 * static_cast<size_t>(image->width) *
                               static_cast<size_t>(image->height));
         for (size_t i = 0; i < written.floats.size(); ++i) {
-            double value = image->floats.empty() ? image->bytes[i] / 255.0 : image->floats[i];
-            value = image->floats.empty() && image->srgb ? srgb_decoded(value) : value;
             const auto channel = static_cast<Eigen::Index>(i % 3);
-            written.floats[i] = static_cast<float>(value * weight[channel] + offset[channel]);
+            written.floats[i] =
+                static_cast<float>(decoded_channel(*image, i) * weight[channel] + offset[channel]);
         }
     }
     const std::filesystem::path path =

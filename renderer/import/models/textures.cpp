@@ -76,9 +76,7 @@ Eigen::Vector3d mean_of(const TextureImage &image) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const auto texels = static_cast<Eigen::Index>(image.width) * image.height;
     for (Eigen::Index i = 0; i < 3 * texels; ++i) {
-        const auto at = static_cast<size_t>(i);
-        const double value = image.floats.empty() ? image.bytes[at] / 255.0 : image.floats[at];
-        sum[i % 3] += image.srgb ? srgb_decoded(value) : value;
+        sum[i % 3] += decoded_channel(image, static_cast<size_t>(i));
     }
     return sum / static_cast<double>(texels);
 }

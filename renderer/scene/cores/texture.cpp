@@ -103,6 +103,14 @@ double srgb_decoded(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
+double decoded_channel(const TextureImage &image, size_t i) {
+    if (!image.floats.empty()) {
+        return static_cast<double>(image.floats[i]);
+    }
+    const double value = image.bytes[i] / 255.0;
+    return image.srgb ? srgb_decoded(value) : value;
+}
+
 double luminance(const Eigen::Vector3d &rgb) {
     return rgb[1] + 0.2126 * (rgb[0] - rgb[1]) + 0.0722 * (rgb[2] - rgb[1]);
 }

@@ -59,6 +59,9 @@ const std::shared_ptr<const TextureImage> &white_image();
 /// Decodes a value in [0, 1] by the sRGB curve (IEC 61966-2-1) to a linear value.
 double srgb_decoded(double value);
 
+/// Returns channel `i` of an image, counted over all texels, as a linear value.
+double decoded_channel(const TextureImage &image, size_t i);
+
 /// Returns the Rec. 709 luminance of a linear colour. For a grey, this is exactly its value.
 double luminance(const Eigen::Vector3d &rgb);
 
