@@ -25,6 +25,10 @@ constexpr double start_cost = 1.1;
 /// Factor of the cost of camera paths that are weighted against light paths.
 constexpr double weighting_cost = 1.2;
 
+/// Share of the greatest efficiency from which trials count as equal. Estimates of variances are no
+/// more exact, and a sample with many light paths takes long.
+constexpr double equal_efficiency = 0.95;
+
 /// Light paths per pixel with whose weights the first guide is trained, before their number is
 /// chosen.
 constexpr double first_guide_paths = 0.25;
@@ -92,6 +96,22 @@ double efficiency(const PilotTrial &trial) {
     return std::isfinite(trial.variance) ? 1 / (trial.variance * trial.cost) : 0.0;
 }
 
+/// Returns the trial with the least cost of a sample among those that are as efficient as any.
+const PilotTrial &cheapest_of_the_efficient(const std::vector<PilotTrial> &trials) {
+    double greatest = 0;
+    for (const PilotTrial &trial : trials) {
+        greatest = std::max(greatest, efficiency(trial));
+    }
+    const PilotTrial *cheapest = nullptr;
+    for (const PilotTrial &trial : trials) {
+        if (efficiency(trial) >= equal_efficiency * greatest &&
+            (cheapest == nullptr || trial.cost < cheapest->cost)) {
+            cheapest = &trial;
+        }
+    }
+    return *cheapest;
+}
+
 /// Traces the paths of one pass and adds rays and times to those of `pilot`.
 TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
     const RenderStats before = session.stats();
@@ -137,9 +157,7 @@ void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths
              camera_rays / count * (per_pixel > 0 ? weighting_cost : 1.0) +
                  per_pixel * ((light.nearest_rays + light.shadow_rays) / count + start_cost)});
     }
-    const PilotTrial best = *std::min_element(
-        pilot.trials.begin(), pilot.trials.end(),
-        [](const PilotTrial &a, const PilotTrial &b) { return efficiency(a) > efficiency(b); });
+    const PilotTrial best = cheapest_of_the_efficient(pilot.trials);
     pilot.is_explicit = best.is_explicit;
     pilot.light_paths = static_cast<uint32_t>(
         std::lround(best.per_pixel * static_cast<double>(settings.width) * settings.height));
