@@ -225,7 +225,7 @@ ExitCode run(Options &options) {
         return ExitCode::ok;
     }
     SampleRange range = requested_samples(options);
-    DeviceContext device(options.device, Binaries::keep);
+    DeviceContext device(options.device);
     RenderSession session = session_of(scene, options, device);
     notice_unseen_light(scene, options.settings);
     if (options.dry_run) {

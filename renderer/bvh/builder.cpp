@@ -45,15 +45,10 @@ struct Capacities {
     }
 };
 
-Defines numbering(const BvhBuildParameters &parameters) {
-    return {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
-}
-
-Defines binning(const BvhBuildParameters &parameters) {
-    Defines defines = numbering(parameters);
-    defines["BVH_BINS"] = fmt::format("{}u", parameters.bins);
-    defines["BVH_BINNED_AXES"] = fmt::format("{}u", parameters.axes);
-    return defines;
+Defines parameter_defines(const BvhBuildParameters &parameters) {
+    return {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)},
+            {"BVH_BINS", fmt::format("{}u", parameters.bins)},
+            {"BVH_BINNED_AXES", fmt::format("{}u", parameters.axes)}};
 }
 
 }  // namespace
@@ -128,7 +123,7 @@ struct BvhBuilder::Workspace {
 
 BvhBuilder::LevelKernels::LevelKernels(DeviceContext &device,
                                        const BvhBuildParameters &parameters) {
-    const Program program(device, "kernels/bvh/split_level.cl", binning(parameters));
+    const Program program(device, {"kernels/bvh/split_level.cl"}, parameter_defines(parameters));
     const uint32_t group = parameters.group_size;
     bin_primitives = Kernel(program, "bin_primitives", group);
     merge_bins = Kernel(program, "merge_bins", group);
@@ -162,16 +157,17 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
             fmt::format("BVH build parameters: bins {} must be 2 to 64, axes {} must be 1 or 3",
                         parameters.bins, parameters.axes));
     }
-    const Program gather(device, "kernels/bvh/gather_primitives.cl", numbering(parameters));
-    check_triangles_ = Kernel(gather, "check_triangles", group);
-    begin_build_ = Kernel(gather, "begin_build", parameters.one_group);
-    gather_primitives_ = Kernel(gather, "gather_primitives", group);
-    const Program subtrees(device, "kernels/bvh/build_subtrees.cl", binning(parameters));
-    build_subtrees_ = Kernel(subtrees, "build_subtrees", group);
-    const Program place(device, "kernels/bvh/place_subtrees.cl", numbering(parameters));
-    place_subtrees_ = Kernel(place, "place_subtrees", parameters.one_group);
-    copy_top_nodes_ = Kernel(place, "copy_top_nodes", group);
-    copy_subtrees_ = Kernel(place, "copy_subtrees", group);
+    const Program program(device,
+                          {"kernels/bvh/gather_primitives.cl", "kernels/bvh/build_subtrees.cl",
+                           "kernels/bvh/place_subtrees.cl"},
+                          parameter_defines(parameters));
+    check_triangles_ = Kernel(program, "check_triangles", group);
+    begin_build_ = Kernel(program, "begin_build", parameters.one_group);
+    gather_primitives_ = Kernel(program, "gather_primitives", group);
+    build_subtrees_ = Kernel(program, "build_subtrees", group);
+    place_subtrees_ = Kernel(program, "place_subtrees", parameters.one_group);
+    copy_top_nodes_ = Kernel(program, "copy_top_nodes", group);
+    copy_subtrees_ = Kernel(program, "copy_subtrees", group);
     if (parameters.method == BvhMethod::hploc) {
         hploc_.emplace(device, group, parameters.subtree_size);
     }

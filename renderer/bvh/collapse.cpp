@@ -19,7 +19,7 @@ uint32_t node_capacity(uint32_t triangles) {
 
 BvhCollapser::BvhCollapser(DeviceContext &device, uint32_t group_size)
     : device_(&device), sums_(PrefixSums::for_device(device, group_size)) {
-    const Program program(device, "kernels/bvh/collapse.cl");
+    const Program program(device, {"kernels/bvh/collapse.cl"});
     begin_collapse_ = Kernel(program, "begin_collapse", 1);
     open_wide_nodes_ = Kernel(program, "open_wide_nodes", group_size);
     link_wide_nodes_ = Kernel(program, "link_wide_nodes", group_size);

@@ -50,20 +50,19 @@ HplocBuilder::HplocBuilder(DeviceContext &device, uint32_t group_size, uint32_t 
     : device_(&device),
       subtree_size_(std::max(subtree_size, 2 * HPLOC_KEPT)),
       sort_(device, RadixSortParameters::for_device(device.info(), group_size)) {
-    const Program order(device, "kernels/bvh/sort_primitives.cl");
-    encode_centroids_ = Kernel(order, "encode_centroids", element_group);
-    gather_clusters_ = Kernel(order, "gather_clusters", element_group);
-    const Program clustering(device, "kernels/bvh/hploc.cl");
-    begin_ranges_ = Kernel(clustering, "begin_ranges", 1);
-    divide_ranges_ = Kernel(clustering, "divide_ranges", group_size);
-    cluster_subtrees_ = Kernel(clustering, "cluster_subtrees", group_size);
-    cluster_ranges_ = Kernel(clustering, "cluster_ranges", group_size);
-    cluster_root_ = Kernel(clustering, "cluster_root", 1);
-    const Program placing(device, "kernels/bvh/place_clusters.cl");
-    place_clusters_ = Kernel(placing, "place_clusters", element_group);
-    fill_triangles_ = Kernel(placing, "fill_triangles", element_group);
-    sum_costs_ = Kernel(placing, "sum_costs", group_size);
-    sum_cost_ = Kernel(placing, "sum_cost", 1);
+    const Program program(device, {"kernels/bvh/sort_primitives.cl", "kernels/bvh/hploc.cl",
+                                   "kernels/bvh/place_clusters.cl"});
+    encode_centroids_ = Kernel(program, "encode_centroids", element_group);
+    gather_clusters_ = Kernel(program, "gather_clusters", element_group);
+    begin_ranges_ = Kernel(program, "begin_ranges", 1);
+    divide_ranges_ = Kernel(program, "divide_ranges", group_size);
+    cluster_subtrees_ = Kernel(program, "cluster_subtrees", group_size);
+    cluster_ranges_ = Kernel(program, "cluster_ranges", group_size);
+    cluster_root_ = Kernel(program, "cluster_root", 1);
+    place_clusters_ = Kernel(program, "place_clusters", element_group);
+    fill_triangles_ = Kernel(program, "fill_triangles", element_group);
+    sum_costs_ = Kernel(program, "sum_costs", group_size);
+    sum_cost_ = Kernel(program, "sum_cost", 1);
 }
 
 void HplocBuilder::cluster(Workspace &work, uint32_t count) {

@@ -12,7 +12,7 @@ constexpr uint32_t group_size = 64;
 
 BvhLinearizer::BvhLinearizer(DeviceContext &device, uint32_t subtree_size)
     : device_(&device), subtree_size_(subtree_size) {
-    const Program program(device, "kernels/bvh/linearize.cl");
+    const Program program(device, {"kernels/bvh/linearize.cl"});
     link_parents_ = Kernel(program, "link_parents", group_size);
     count_subtrees_ = Kernel(program, "count_subtrees", group_size);
     place_subtree_nodes_ = Kernel(program, "place_subtree_nodes", group_size);

@@ -11,7 +11,7 @@ PrefixSums::PrefixSums(DeviceContext &device, uint32_t group_size, uint32_t bloc
         throw input_error(fmt::format(
             "prefix sums: block size {} is too small; use at least 2 values", block_size));
     }
-    const Program program(device, "kernels/bvh/prefix_sums.cl");
+    const Program program(device, {"kernels/bvh/prefix_sums.cl"});
     sum_blocks_ = Kernel(program, "sum_blocks", group_size);
     scan_blocks_ = Kernel(program, "scan_blocks", group_size);
 }

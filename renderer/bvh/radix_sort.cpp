@@ -20,7 +20,7 @@ RadixSort::RadixSort(DeviceContext &device, const RadixSortParameters &parameter
             "bits and at least 1 key",
             parameters.digit_bits, parameters.chunk_size));
     }
-    const Program program(device, "kernels/bvh/radix_sort.cl",
+    const Program program(device, {"kernels/bvh/radix_sort.cl"},
                           {{"RADIX_BITS", std::to_string(parameters.digit_bits)}});
     count_digits_ = Kernel(program, "count_digits", parameters.group_size);
     move_by_digit_ = Kernel(program, "move_by_digit", parameters.group_size);

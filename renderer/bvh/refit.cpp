@@ -23,7 +23,7 @@ constexpr uint32_t fault_kinds = TRIANGLE_BAD_INDEX + 1;
 
 BvhRefitter::BvhRefitter(DeviceContext &device, const Bvh &bvh, uint32_t group_size)
     : device_(&device), faults_(device, "bvh faults", fault_kinds) {
-    const Program program(device, "kernels/bvh/refit.cl",
+    const Program program(device, {"kernels/bvh/refit.cl"},
                           {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(bvh.layout()))}});
     count_faults_ = Kernel(program, "count_faults", group_size);
     refit_triangles_ = Kernel(program, "refit_triangles", group_size);

@@ -12,7 +12,8 @@ bool StageDescription::reads(StageInput input) const {
 const StageDescription &stage_description(Stage stage) {
     using In = StageInput;
     static const std::vector<StageDescription> table = {
-#define RTRAYS_STAGE(name, file, items, ...) {#name, file, StageItems::items, {__VA_ARGS__}},
+#define RTRAYS_STAGE(name, program, file, items, ...) \
+    {#name, StageProgram::program, file, StageItems::items, {__VA_ARGS__}},
         RTRAYS_STAGES(RTRAYS_STAGE)
 #undef RTRAYS_STAGE
     };

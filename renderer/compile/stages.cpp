@@ -21,15 +21,29 @@ StageSet::StageSet(DeviceContext &device, const std::vector<Stage> &stages, Feat
 }
 
 void StageSet::add(const std::vector<Stage> &stages) {
+    std::map<StageProgram, std::set<Stage>> of_programs;
     for (const Stage stage : stages) {
+        if (!has(stage)) {
+            of_programs[stage_description(stage).program].insert(stage);
+        }
+    }
+    for (const auto &[program, of_program] : of_programs) {
+        build(of_program);
+    }
+}
+
+void StageSet::build(const std::set<Stage> &of_one_program) {
+    std::set<std::string> files;
+    for (const Stage stage : of_one_program) {
+        files.insert(stage_description(stage).file);
+    }
+    const Program &program = programs_.emplace_back(
+        *device_, std::vector<std::string>(files.begin(), files.end()), defines_, overlays_);
+    for (const Stage stage : of_one_program) {
         const StageDescription &description = stage_description(stage);
-        const auto program =
-            programs_.try_emplace(description.file, *device_, description.file, defines_, overlays_)
-                .first;
         const uint32_t size = description.items == StageItems::one ? 1 : group_size_;
-        const bool is_new =
-            kernels_.try_emplace(stage, program->second, description.name, size).second;
-        if (is_new && !arguments_.empty()) {
+        kernels_.try_emplace(stage, program, description.name, size);
+        if (!arguments_.empty()) {
             bind(stage, arguments_);
         }
     }
@@ -65,7 +79,7 @@ void StageSet::enqueue(Stage stage, uint64_t items) {
 
 double StageSet::build_seconds() const {
     double seconds = 0;
-    for (const auto &[file, program] : programs_) {
+    for (const Program &program : programs_) {
         seconds += program.build_seconds();
     }
     return seconds;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ Defines stage_defines(FeatureMask features, const StreamLayout &layout);
 /// Compiled programs and kernels of some stages under one feature mask.
 class StageSet {
   public:
-    /// Builds one program per file and one kernel per stage.
+    /// Builds the programs of the stages, and one kernel per stage.
     StageSet(DeviceContext &device, const std::vector<Stage> &stages, FeatureMask features,
              const StreamLayout &layout, const SourceOverlays &overlays);
 
@@ -48,19 +49,19 @@ class StageSet {
     /// Launches a stage with at least `items` work-items.
     void enqueue(Stage stage, uint64_t items);
 
-    /// Returns the programs by file.
-    const std::map<std::string, Program> &programs() const { return programs_; }
+    const std::vector<Program> &programs() const { return programs_; }
     /// Returns the time in which all programs were built or loaded.
     double build_seconds() const;
 
   private:
+    void build(const std::set<Stage> &of_one_program);
     void bind(Stage stage, const StageArguments &changed);
 
     DeviceContext *device_;
     Defines defines_;
     uint32_t group_size_;
     SourceOverlays overlays_;
-    std::map<std::string, Program> programs_;
+    std::vector<Program> programs_;
     std::map<Stage, Kernel> kernels_;
     StageArguments arguments_;  ///< all bound arguments
 };

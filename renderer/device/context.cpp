@@ -162,9 +162,29 @@ std::vector<DeviceInfo> list_devices() {
     return devices;
 }
 
+std::shared_ptr<const BuiltProgram> RecentPrograms::find(const std::string &key) {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](const Entry &entry) { return entry.key == key; });
+    if (found == entries_.end()) {
+        return nullptr;
+    }
+    entries_.splice(entries_.begin(), entries_, found);
+    return found->program;
+}
+
+void RecentPrograms::add(const std::string &key, std::shared_ptr<const BuiltProgram> program) {
+    entries_.push_front({key, std::move(program)});
+    if (entries_.size() > capacity) {
+        entries_.pop_back();
+    }
+}
+
 DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
-    : info_(select_device(spec)), binaries_(binaries) {
-    if (info_.platform_name.find("Portable Computing Language") != std::string::npos) {
+    : info_(select_device(spec)) {
+    const bool is_pocl =
+        info_.platform_name.find("Portable Computing Language") != std::string::npos;
+    keeps_binaries_ = binaries == Binaries::keep || !is_pocl;
+    if (is_pocl) {
         explain_pocl_crashes();
     }
     cl_int status = CL_SUCCESS;

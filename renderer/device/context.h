@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,15 +36,38 @@ struct DeviceInfo {
 /// devices are skipped.
 std::vector<DeviceInfo> list_devices();
 
-/// Whether the binaries of compiled programs are kept.
+/// Whether the binaries of compiled programs are kept on disk.
 enum class Binaries {
-    /// On disk. A later start takes 0.15 s instead of about 1 s.
     keep,
-    /// Left to the driver, which may have its own cache. This saves time: PoCL compiles every
-    /// kernel for any group size when it is asked for the binary, and once more for the size of a
-    /// launch. The first version alone would suffice (POCL_WORK_GROUP_SPECIALIZATION=0), but the
-    /// wavefront is then 3 % slower.
-    leave,
+    /// Kept unless the driver is PoCL, which has its own cache. Asked for a binary, PoCL compiles
+    /// every kernel for any group size, and once more for the size of a launch: a first start then
+    /// takes twice as long. The first version alone would suffice
+    /// (POCL_WORK_GROUP_SPECIALIZATION=0), but the wavefront is then 3 % slower.
+    by_driver,
+};
+
+/// A program that an OpenCL driver has built.
+struct BuiltProgram {
+    ClProgram program;
+    size_t binary_bytes = 0;  ///< size of the binary, or 0 if it was not asked for
+};
+
+/// The programs that a context used last, by key, so that a session like an earlier one starts
+/// without the compiler's front end.
+class RecentPrograms {
+  public:
+    /// Returns the program of a key, or null.
+    std::shared_ptr<const BuiltProgram> find(const std::string &key);
+    void add(const std::string &key, std::shared_ptr<const BuiltProgram> program);
+
+  private:
+    static constexpr size_t capacity = 32;  ///< four or five sessions; each has a few MB
+
+    struct Entry {
+        std::string key;
+        std::shared_ptr<const BuiltProgram> program;
+    };
+    std::list<Entry> entries_;  ///< the last used first
 };
 
 /// Commands that a program has enqueued on a device, and memory that it has allocated.
@@ -61,10 +86,12 @@ class DeviceContext {
     /// "gpu", "PLATFORM:DEVICE" by index, or part of a device name. Throws `Error` (bad usage) that
     /// lists the devices when none matches, and that names the package to install when there is no
     /// device at all.
-    explicit DeviceContext(const std::string &spec = "", Binaries binaries = Binaries::leave);
+    explicit DeviceContext(const std::string &spec = "", Binaries binaries = Binaries::by_driver);
 
     const DeviceInfo &info() const { return info_; }
-    Binaries binaries() const { return binaries_; }
+    /// Whether binaries of programs go to disk.
+    bool keeps_binaries() const { return keeps_binaries_; }
+    RecentPrograms &recent_programs() { return recent_programs_; }
     cl_context context() const { return context_.get(); }
     cl_command_queue queue() const { return queue_.get(); }
     Profiler &profiler() { return profiler_; }
@@ -81,11 +108,12 @@ class DeviceContext {
 
   private:
     DeviceInfo info_;
-    Binaries binaries_;
+    bool keeps_binaries_;
     ClContext context_;
     ClQueue queue_;
     Profiler profiler_;
     DeviceTraffic traffic_;
+    RecentPrograms recent_programs_;
 };
 
 }  // namespace rtrays

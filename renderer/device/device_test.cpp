@@ -19,12 +19,12 @@ TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
         {"kernels/a.cl", "#include \"b.h\"\n#include \"kernels/b.h\"\nint a;\n"},
         {"kernels/b.h", "#pragma once\nint b;\n"}};
     EXPECT_EQ(
-        expand_source("kernels/a.cl", files),
+        expand_source({"kernels/a.cl"}, files),
         "#line 1 \"kernels/a.cl\"\n#line 1 \"kernels/b.h\"\n\nint b;\n#line 2 \"kernels/a.cl\"\n"
         "#line 3 \"kernels/a.cl\"\nint a;\n");
-    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 5),
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source({"kernels/a.cl"}, files), 5),
               "kernels/b.h:2");
-    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 8),
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source({"kernels/a.cl"}, files), 8),
               "kernels/a.cl:3");
     EXPECT_EQ(source_place("#define X 1\n", 1), "defines:1");
 }
@@ -32,7 +32,7 @@ TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
 TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
     const SourceOverlays files = {
         {"kernels/x/a.cl", "#include \"b.h\"\n"}, {"kernels/x/b.h", "near\n"}, {"b.h", "far\n"}};
-    const std::string text = expand_source("kernels/x/a.cl", files);
+    const std::string text = expand_source({"kernels/x/a.cl"}, files);
     EXPECT_NE(text.find("near"), std::string::npos);
     EXPECT_EQ(text.find("far"), std::string::npos);
 }
@@ -40,16 +40,17 @@ TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
 TEST(Source, NamesFileAndLineOfAMissingInclude) {
     const SourceOverlays files = {{"kernels/a.cl", "\n#include \"nowhere.h\"\n"}};
     EXPECT_NE(
-        expand_source("kernels/a.cl", files).find("#error kernels/a.cl:2: include \"nowhere.h\""),
+        expand_source({"kernels/a.cl"}, files).find("#error kernels/a.cl:2: include \"nowhere.h\""),
         std::string::npos);
-    expect_run_error("'kernels/none.cl' does not exist", [] { expand_source("kernels/none.cl"); });
+    expect_run_error("'kernels/none.cl' does not exist",
+                     [] { expand_source({"kernels/none.cl"}); });
     expect_run_error("'kernels/none.cl' does not exist", [] { device_source("kernels/none.cl"); });
 }
 
 TEST(Source, CutsCycles) {
     const SourceOverlays files = {{"a.h", "#include \"b.h\"\nx\n"},
                                   {"b.h", "#include \"a.h\"\ny\n"}};
-    EXPECT_EQ(expand_source("a.h", files),
+    EXPECT_EQ(expand_source({"a.h"}, files),
               "#line 1 \"a.h\"\n#line 1 \"b.h\"\n#line 2 \"b.h\"\ny\n#line 2 \"a.h\"\nx\n");
 }
 
@@ -86,7 +87,7 @@ class Device : public testing::Test {
 };
 
 TEST_F(Device, RunsAKernelWithCheckedArguments) {
-    const Program program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_));
+    const Program program(device_, {"kernels/test.cl"}, {{"FACTOR", "2"}}, kernel_source(body_));
     Kernel kernel(program, "test", 8);
     Buffer<uint32_t> values(device_, "values", std::vector<uint32_t>{1, 2, 3, 4, 5});
     kernel.bind({values, 5u, 3.0f});
@@ -110,7 +111,8 @@ TEST_F(Device, RunsAKernelWithCheckedArguments) {
 
 TEST_F(Device, CachesProgramsByContent) {
     const auto build = [&](const std::string &factor, const std::string &body) {
-        return Program(device_, "kernels/test.cl", {{"FACTOR", factor}}, kernel_source(body))
+        DeviceContext later("", Binaries::keep);
+        return Program(later, {"kernels/test.cl"}, {{"FACTOR", factor}}, kernel_source(body))
             .from_cache();
     };
     EXPECT_FALSE(build("2", body_));
@@ -119,9 +121,28 @@ TEST_F(Device, CachesProgramsByContent) {
     EXPECT_FALSE(build("2", body_ + " ")) << "the source changed";
 }
 
+TEST_F(Device, KeepsTheProgramsThatItUsedLast) {
+    DeviceContext device;
+    const auto is_kept = [&](uint32_t factor) {
+        return Program(device, {"kernels/test.cl"}, {{"FACTOR", std::to_string(factor)}},
+                       kernel_source(body_))
+            .from_cache();
+    };
+    EXPECT_FALSE(is_kept(0));
+    EXPECT_TRUE(is_kept(0));
+    for (uint32_t factor = 1; factor < 32; ++factor) {
+        EXPECT_FALSE(is_kept(factor));
+        EXPECT_TRUE(is_kept(0)) << "used after " << factor << " others";
+    }
+    EXPECT_FALSE(is_kept(32));
+    EXPECT_FALSE(is_kept(1)) << "the one used longest ago made room";
+    EXPECT_TRUE(is_kept(0));
+}
+
 TEST_F(Device, RebuildsADamagedCacheFile) {
     const auto from_cache = [&] {
-        return Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_))
+        DeviceContext later("", Binaries::keep);
+        return Program(later, {"kernels/test.cl"}, {{"FACTOR", "2"}}, kernel_source(body_))
             .from_cache();
     };
     EXPECT_FALSE(from_cache());
@@ -138,13 +159,13 @@ TEST_F(Device, RebuildsADamagedCacheFile) {
 
 TEST_F(Device, WorksWithoutAWritableCache) {
     setenv("RTRAYS_CACHE_DIR", "/proc/nowhere", 1);
-    EXPECT_FALSE(
-        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache());
+    EXPECT_FALSE(Program(device_, {"kernels/test.cl"}, {{"FACTOR", "2"}}, kernel_source(body_))
+                     .from_cache());
 }
 
 TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
     const auto build = [&](DeviceContext &device) {
-        return Program(device, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_));
+        return Program(device, {"kernels/test.cl"}, {{"FACTOR", "2"}}, kernel_source(body_));
     };
     DeviceContext leaving;
     EXPECT_EQ(build(leaving).binary_bytes(), 0u);
@@ -156,7 +177,7 @@ TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
 
 TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
     const std::string message = error_of(ExitCode::run_failed, [&] {
-        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}},
+        Program(device_, {"kernels/test.cl"}, {{"FACTOR", "2"}},
                 kernel_source("\n  undeclared = 1;"));
     });
     EXPECT_NE(message.find("kernels/test.cl:3"), std::string::npos) << message;

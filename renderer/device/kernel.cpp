@@ -3,6 +3,7 @@
 
 #include <cxxabi.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdlib>
 #include <map>
@@ -37,7 +38,8 @@ Kernel::Kernel(const Program &program, const std::string &name, uint32_t group_s
     : device_(&program.device()), name_(name), group_size_(group_size) {
     cl_int status = CL_SUCCESS;
     kernel_ = ClKernel(clCreateKernel(program.get(), name.c_str(), &status));
-    check_cl(status, fmt::format("creating kernel '{}' of {}", name, program.path()));
+    check_cl(status,
+             fmt::format("creating kernel '{}' of {}", name, fmt::join(program.paths(), ", ")));
     cl_uint count = 0;
     check_cl(clGetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof count, &count, nullptr),
              "querying kernel " + name);

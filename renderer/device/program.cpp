@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -93,11 +94,11 @@ std::string program_cache_directory() {
     return cache_directory("RTRAYS_CACHE_DIR", "rtrays");
 }
 
-Program::Program(DeviceContext &device, const std::string &path, const Defines &defines,
-                 const SourceOverlays &overlays)
-    : device_(&device), path_(path) {
+Program::Program(DeviceContext &device, const std::vector<std::string> &paths,
+                 const Defines &defines, const SourceOverlays &overlays)
+    : device_(&device), paths_(paths) {
     const auto start = SteadyClock::now();
-    const std::string text = expand_source(path, overlays);
+    const std::string text = expand_source(paths, overlays);
     std::string source;
     for (const auto &[name, value] : defines) {
         // Defines that the text does not mention are omitted: they must not change the program's
@@ -111,61 +112,72 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     const std::string key =
         content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver,
                                  program_options(info), source));
-
-    std::error_code ignored;  // a cache that cannot be created only costs time
-    fs::create_directories(program_cache_directory(), ignored);
-    const FileLock lock(cache_file(key) + ".lock");
-    from_cache_ = load(key);
+    built_ = device.recent_programs().find(key);
+    from_cache_ = built_ != nullptr;
     if (!from_cache_) {
-        compile(source, key);
+        std::error_code ignored;  // a cache that cannot be created only costs time
+        fs::create_directories(program_cache_directory(), ignored);
+        const FileLock lock(cache_file(key) + ".lock");
+        built_ = load(key);
+        from_cache_ = built_ != nullptr;
+        if (!from_cache_) {
+            built_ = compile(source, key);
+        }
+        device.recent_programs().add(key, built_);
     }
     build_seconds_ = seconds_since(start);
 }
 
-bool Program::load(const std::string &key) {
+std::shared_ptr<const BuiltProgram> Program::load(const std::string &key) const {
     std::string content;
     try {
         content = read_file(cache_file(key));
     } catch (const Error &) {
-        return false;
+        return nullptr;
     }
     if (content.size() < hash_digits ||
         content_hash(content.substr(hash_digits)) != content.substr(0, hash_digits)) {
-        return false;
+        return nullptr;
     }
-    binary_bytes_ = content.size() - hash_digits;
+    const cl_device_id device = device_->info().device;
+    const size_t bytes = content.size() - hash_digits;
     const auto *binary = reinterpret_cast<const unsigned char *>(content.data()) + hash_digits;
     cl_int status = CL_SUCCESS;
     cl_int loaded = CL_SUCCESS;
-    program_ = ClProgram(clCreateProgramWithBinary(device_->context(), 1, &device_->info().device,
-                                                   &binary_bytes_, &binary, &loaded, &status));
-    return status == CL_SUCCESS && loaded == CL_SUCCESS &&
-           clBuildProgram(program_.get(), 1, &device_->info().device,
-                          program_options(device_->info()).c_str(), nullptr, nullptr) == CL_SUCCESS;
+    ClProgram program(clCreateProgramWithBinary(device_->context(), 1, &device, &bytes, &binary,
+                                                &loaded, &status));
+    if (status != CL_SUCCESS || loaded != CL_SUCCESS ||
+        clBuildProgram(program.get(), 1, &device, program_options(device_->info()).c_str(), nullptr,
+                       nullptr) != CL_SUCCESS) {
+        return nullptr;
+    }
+    return std::make_shared<BuiltProgram>(BuiltProgram{std::move(program), bytes});
 }
 
-void Program::compile(const std::string &source, const std::string &key) {
+std::shared_ptr<const BuiltProgram> Program::compile(const std::string &source,
+                                                     const std::string &key) const {
+    const std::string names = fmt::format("{}", fmt::join(paths_, ", "));
+    const cl_device_id device = device_->info().device;
     const char *text = source.c_str();
     cl_int status = CL_SUCCESS;
-    program_ = ClProgram(clCreateProgramWithSource(device_->context(), 1, &text, nullptr, &status));
-    check_cl(status, "creating program " + path_);
+    ClProgram program(clCreateProgramWithSource(device_->context(), 1, &text, nullptr, &status));
+    check_cl(status, "creating program " + names);
     const std::string options = program_options(device_->info());
-    status = clBuildProgram(program_.get(), 1, &device_->info().device, options.c_str(), nullptr,
-                            nullptr);
+    status = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
     if (status != CL_SUCCESS) {
-        throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
-                                    build_log(program_.get(), device_->info().device, source)));
+        throw run_error(fmt::format("building {}: {}\n{}", names, cl_status_name(status),
+                                    build_log(program.get(), device, source)));
     }
-    if (device_->binaries() == Binaries::leave) {
-        return;
+    if (!device_->keeps_binaries()) {
+        return std::make_shared<BuiltProgram>(BuiltProgram{std::move(program), 0});
     }
-    const std::string binary = program_binary(program_.get());
-    binary_bytes_ = binary.size();
+    const std::string binary = program_binary(program.get());
     try {
         write_file(cache_file(key), content_hash(binary) + binary);
     } catch (const Error &) {
         // a full or read-only cache only costs time
     }
+    return std::make_shared<BuiltProgram>(BuiltProgram{std::move(program), binary.size()});
 }
 
 }  // namespace rtrays

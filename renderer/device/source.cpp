@@ -61,8 +61,10 @@ class Expander {
   public:
     explicit Expander(const SourceOverlays &overlays) : overlays_(overlays) {}
 
-    std::string run(const std::string &path) {
-        expand(path, required_source(path, overlays_));
+    std::string run(const std::vector<std::string> &paths) {
+        for (const std::string &path : paths) {
+            expand(path, required_source(path, overlays_));
+        }
         return output_;
     }
 
@@ -138,8 +140,8 @@ std::string source_place(const std::string &expanded, size_t line) {
     return fmt::format("{}:{}", file, number);
 }
 
-std::string expand_source(const std::string &path, const SourceOverlays &overlays) {
-    return Expander(overlays).run(path);
+std::string expand_source(const std::vector<std::string> &paths, const SourceOverlays &overlays) {
+    return Expander(overlays).run(paths);
 }
 
 }  // namespace rtrays

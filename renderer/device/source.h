@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace rtrays {
 
@@ -15,13 +16,15 @@ using SourceOverlays = std::map<std::string, std::string>;
 /// "shared/compat.h". Throws `Error` (run failed) that names the path when it does not exist.
 std::string device_source(const std::string &path);
 
-/// Returns the text of `path` with every `#include "..."` expanded recursively. Paths are relative
-/// to the including file, then to the roots (renderer/ and the directory of Random123). Files with
-/// `#pragma once` are expanded once. Each piece is preceded by `#line` with its own path, so that
-/// compiler messages name the real file. `#include <...>` is left alone. An include that cannot be
-/// resolved becomes an `#error` that names file and line; it fails the build unless its branch is
-/// not compiled. Throws `Error` (run failed) when `path` itself does not exist.
-std::string expand_source(const std::string &path, const SourceOverlays &overlays = {});
+/// Returns the texts of `paths` in a row, with every `#include "..."` expanded recursively.
+/// Includes are relative to the including file, then to the roots (renderer/ and the directory of
+/// Random123). Files with `#pragma once` are expanded once. Each piece is preceded by `#line` with
+/// its own path, so that compiler messages name the real file. `#include <...>` is left alone. An
+/// include that cannot be resolved becomes an `#error` that names file and line; it fails the build
+/// unless its branch is not compiled. Throws `Error` (run failed) when one of `paths` does not
+/// exist.
+std::string expand_source(const std::vector<std::string> &paths,
+                          const SourceOverlays &overlays = {});
 
 /// Returns "FILE:LINE" for a line (counted from 1) of a text that `expand_source` returned, and
 /// "defines:LINE" for lines before its first `#line`.

@@ -15,17 +15,13 @@ ConvergenceControl::ConvergenceControl(DeviceContext &device, const ConvergenceR
       stopped_at_(device, "stopped_at", pixels),
       live_pixels_(device, "live_pixels", pixels),
       live_blocks_(device, "live_blocks", LIVE_BLOCKS(pixels)),
-      live_total_(device, "live_total", 1) {
-    for (const char *file : {"kernels/stop_converged.cl", "kernels/list_live_pixels.cl"}) {
-        programs_.try_emplace(file, device, file, camera.defines(), overlays);
-    }
-    const auto kernel = [&](const char *file, const char *name, uint32_t size) {
-        return Kernel(programs_.at(file), name, size);
-    };
-    stop_converged_ = kernel("kernels/stop_converged.cl", "stop_converged", group_size);
-    count_live_pixels_ = kernel("kernels/list_live_pixels.cl", "count_live_pixels", group_size);
-    place_live_blocks_ = kernel("kernels/list_live_pixels.cl", "place_live_blocks", 1);
-    list_live_pixels_ = kernel("kernels/list_live_pixels.cl", "list_live_pixels", group_size);
+      live_total_(device, "live_total", 1),
+      program_(device, {"kernels/stop_converged.cl", "kernels/list_live_pixels.cl"},
+               camera.defines(), overlays) {
+    stop_converged_ = Kernel(program_, "stop_converged", group_size);
+    count_live_pixels_ = Kernel(program_, "count_live_pixels", group_size);
+    place_live_blocks_ = Kernel(program_, "place_live_blocks", 1);
+    list_live_pixels_ = Kernel(program_, "list_live_pixels", group_size);
     reset();
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 
 #include "renderer/compile/stages.h"
@@ -42,8 +41,7 @@ class ConvergenceControl {
     /// Replaces the state.
     void restore(const ConvergenceState &state);
 
-    /// Returns the programs by file.
-    const std::map<std::string, Program> &programs() const { return programs_; }
+    const Program &program() const { return program_; }
 
     /// Calls visit(buffer) for every buffer.
     template <typename Visit>
@@ -65,7 +63,7 @@ class ConvergenceControl {
     Buffer<uint32_t> live_pixels_;
     Buffer<uint32_t> live_blocks_;
     Buffer<uint32_t> live_total_;
-    std::map<std::string, Program> programs_;
+    Program program_;
     Kernel stop_converged_, count_live_pixels_, place_live_blocks_, list_live_pixels_;
     uint32_t live_count_ = 0;
 };

@@ -307,7 +307,7 @@ __kernel void test(__global const float *samples, __global long *film, uint coun
         if (std::string(atomics) == "1" && !device.info().has_int64_atomics) {
             continue;
         }
-        const Program program(device, "kernels/test.cl",
+        const Program program(device, {"kernels/test.cl"},
                               {{"FEATURE_variance", "1"},
                                {"FEATURE_sequences", "0"},
                                {"FEATURE_int64_atomics", atomics}},

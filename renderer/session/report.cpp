@@ -34,18 +34,16 @@ Json pilot_report(const Pilot &pilot) {
     return report;
 }
 
-/// Adds an entry for each program of a pass to "programs".
-void add_programs(Json &report, PassKind pass, const std::map<std::string, Program> &programs) {
-    for (const auto &[file, program] : programs) {
-        Json entry = {{"pass", to_string(pass)},
-                      {"file", file},
-                      {"seconds", program.build_seconds()},
-                      {"from_cache", program.from_cache()}};
-        if (program.binary_bytes() > 0) {
-            entry["binary_bytes"] = program.binary_bytes();
-        }
-        report["programs"].push_back(entry);
+/// Adds the entry of a pass' program to "programs".
+void add_program(Json &report, PassKind pass, const Program &program) {
+    Json entry = {{"pass", to_string(pass)},
+                  {"files", program.paths()},
+                  {"seconds", program.build_seconds()},
+                  {"from_cache", program.from_cache()}};
+    if (program.binary_bytes() > 0) {
+        entry["binary_bytes"] = program.binary_bytes();
     }
+    report["programs"].push_back(entry);
 }
 
 /// Adds an entry for each stage of a profile to "stages".
@@ -107,9 +105,11 @@ Json bvh_report(const DeviceScene &scene, BvhLayout layout) {
 void RenderSession::State::report_passes(Json &report) const {
     uint32_t largest_path = 0;
     for (const CompiledPass &pass : passes) {
-        add_programs(report, pass.kind, pass.stages.programs());
+        for (const Program &program : pass.stages.programs()) {
+            add_program(report, pass.kind, program);
+        }
         if (pass.features.has(Feature::convergence)) {
-            add_programs(report, pass.kind, convergence->programs());
+            add_program(report, pass.kind, convergence->program());
         }
         add_stages(report, pass.profile, to_string(pass.kind));
         report["passes"].push_back(pass_report(pass, paths_per_sample(pass)));

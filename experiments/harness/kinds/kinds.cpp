@@ -23,9 +23,9 @@ Kind measurement(const char *name) {
 }  // namespace
 
 const std::vector<Kind> &experiment_kinds() {
-    constexpr Binaries leave = Binaries::leave;
+    constexpr Binaries by_driver = Binaries::by_driver;
     static const std::vector<Kind> kinds = {
-        {"curves", "curves.schema.json", {profile, out, compile}, leave, make_curves},
+        {"curves", "curves.schema.json", {profile, out, compile}, by_driver, make_curves},
         measurement("bvh_build"),
         measurement("bvh_animation"),
         measurement("ray_rates"),
@@ -35,16 +35,20 @@ const std::vector<Kind> &experiment_kinds() {
         measurement("renderers"),
         measurement("ablations"),
         measurement("reference_agreement"),
-        {"stability", "stability.schema.json", {profile, out, compile}, leave, make_stability},
+        {"stability", "stability.schema.json", {profile, out, compile}, by_driver, make_stability},
         {"convergence_control",
          "convergence_control.schema.json",
          {profile, out},
-         leave,
+         by_driver,
          make_convergence_control},
-        {"sweep", "sweep.schema.json", {profile, out}, leave, make_sweep},
-        {"scene_gains", "scene_gains.schema.json", {profile, out}, leave, make_scene_gains},
-        {"agreement", "agreement.schema.json", {profile, out}, leave, make_agreement},
-        {"gate", "gate.schema.json", {Option::check, Option::update_baseline}, leave, make_gate},
+        {"sweep", "sweep.schema.json", {profile, out}, by_driver, make_sweep},
+        {"scene_gains", "scene_gains.schema.json", {profile, out}, by_driver, make_scene_gains},
+        {"agreement", "agreement.schema.json", {profile, out}, by_driver, make_agreement},
+        {"gate",
+         "gate.schema.json",
+         {Option::check, Option::update_baseline},
+         by_driver,
+         make_gate},
     };
     return kinds;
 }

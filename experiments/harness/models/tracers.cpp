@@ -127,8 +127,8 @@ size_t DeviceRays::hit_count() const {
 DeviceTracer::DeviceTracer(DeviceContext &device, Bvh bvh)
     : device_(&device),
       bvh_(std::move(bvh)),
-      trace_(device, "kernels/traversal/trace_rays.cl", defines(bvh_.layout(), false)),
-      count_(device, "kernels/traversal/trace_rays.cl", defines(bvh_.layout(), true)) {}
+      trace_(device, {"kernels/traversal/trace_rays.cl"}, defines(bvh_.layout(), false)),
+      count_(device, {"kernels/traversal/trace_rays.cl"}, defines(bvh_.layout(), true)) {}
 
 template <typename T>
 Kernel DeviceTracer::kernel(const Program &program, const std::string &name, const DeviceRays &rays,

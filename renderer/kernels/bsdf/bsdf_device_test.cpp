@@ -46,7 +46,7 @@ __kernel void test(GLOBAL const MaterialRecord *materials, GLOBAL const BxdfReco
 )";
 
 Program build(DeviceContext &device, FeatureMask mask) {
-    return Program(device, "kernels/test.cl", mask.defines(), {{"kernels/test.cl", test_kernel}});
+    return Program(device, {"kernels/test.cl"}, mask.defines(), {{"kernels/test.cl", test_kernel}});
 }
 
 // The code of one component must not depend on that of another.

@@ -90,7 +90,7 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
     }
 
     DeviceContext device;
-    const Program program(device, "kernels/trace_shapes.cl", shape_features(arrays).defines(),
+    const Program program(device, {"kernels/trace_shapes.cl"}, shape_features(arrays).defines(),
                           {{"kernels/trace_shapes.cl", kernel_source}});
     Kernel kernel(program, "trace", 64);
     std::vector<ShapeBounds> single_bounds;

@@ -54,7 +54,7 @@ __kernel void test(SHADING_PARAMETERS, CameraRecord camera, GLOBAL float *found,
 )";
 
 Program build(DeviceContext &device, FeatureMask mask) {
-    return Program(device, "kernels/test.cl", mask.defines(), {{"kernels/test.cl", test_kernel}});
+    return Program(device, {"kernels/test.cl"}, mask.defines(), {{"kernels/test.cl", test_kernel}});
 }
 
 // The code of one type must not depend on that of another.

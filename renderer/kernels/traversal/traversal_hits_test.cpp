@@ -180,7 +180,7 @@ TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
 TEST_P(TraversalHits, DeviceFindsWhatTheHostFinds) {
     DeviceContext &device = test_device();
     const Program program(
-        device, "kernels/traversal/trace_rays.cl",
+        device, {"kernels/traversal/trace_rays.cl"},
         {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(GetParam().layout))}});
     for (const Mesh &mesh : {room(), terrain(100, 4)}) {
         const Bvh bvh = build_on_device(mesh, GetParam());

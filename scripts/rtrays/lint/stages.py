@@ -147,7 +147,7 @@ def stage_rows():
     heads = {}
     for path in sorted((ROOT / KERNELS).glob("*.cl")):
         heads.update(declared(path.read_text()))
-    table = re.findall(r'X\((\w+), "kernels', text_of("renderer/compile/stage_table.h"))
+    table = re.findall(r'X\((\w+), \w+, "kernels', text_of("renderer/compile/stage_table.h"))
     others = [stage for stage in heads if stage not in table]
     return [
         [f"`{stage}`", *(", ".join(heads[stage][0][kind]) for kind in KINDS)]
