@@ -15,6 +15,7 @@
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/retire.h"
 #include "renderer/kernels/path/scatter.h"
+#include "renderer/kernels/path/words_at.h"
 #include "renderer/kernels/stream.h"
 
 __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL long *half_film_words,
@@ -22,12 +23,13 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
     const SceneView scene = SHADING_VIEW;
     const Stream stream = STREAM_VIEW;
     const FilmView film = {film_words, counters, first_sample};
+    WordBatch words;
     PushBuffer continued, ended;
-    continued.count = 0u;
-    ended.count = 0u;
+    continued.count = ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(stream)) {
         const Path path = shaded_path_at(&scene, stream, i, i_end);
-        if (scatter(path, &scene, settings, first_sample)) {
+        if (scatter(path, &scene, settings,
+                    scatter_words_at(&words, stream, i, i_end, settings, first_sample))) {
             push_slot(&continued, path.slot);
         } else {
             prefetch_film(path, film);

@@ -14,7 +14,6 @@
 #include "renderer/kernels/path/light_start.h"
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/stored_vertex.h"
-#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/stream.h"
 
 __kernel void generate_light_paths(SHADING_PARAMETERS, CameraRecord camera,
@@ -23,17 +22,15 @@ __kernel void generate_light_paths(SHADING_PARAMETERS, CameraRecord camera,
     const SceneView scene = SHADING_VIEW;
     const Stream stream = STREAM_VIEW;
     const WorkItems items = take_work(stream);
+    EmissionWords words;
     PushBuffer started, shadow;
     started.count = 0u;
     shadow.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const Path path = path_in(stream, queue_entries(stream, QUEUE_FREE)[items.slots + i]);
-        const uint item = items.first + i;
-        const EmissionSample start = start_light_path(path, &scene, settings, first_sample, item);
+        const EmissionSample start =
+            start_light_path(path, &scene, &words, settings, first_sample, items.first, i);
         clear_vertices(path, vertex_words, settings);
-        if (FEATURE_light_path_trials) {
-            start_light_trials(path, &scene, start, item);
-        }
         push_slot(&started, path.slot);
         if (connect_start_to_camera(path, &scene, camera, settings, first_sample, start)) {
             push_slot(&shadow, path.slot);

@@ -10,17 +10,21 @@
 
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/light_sample.h"
+#include "renderer/kernels/path/words_at.h"
 #include "renderer/kernels/stream.h"
 
 __kernel void sample_light(SHADING_PARAMETERS, IntegratorSettings settings, ulong first_sample,
                            uint light_index, STREAM_PARAMETERS) {
     const SceneView scene = SHADING_VIEW;
     const Stream stream = STREAM_VIEW;
+    WordBatch words;
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(stream)) {
         const Path path = shaded_path_at(&scene, stream, i, i_end);
-        if (connect_to_light(path, &scene, settings, first_sample, light_index)) {
+        const uint4 of_path =
+            light_words_at(&words, stream, i, i_end, settings, first_sample, light_index);
+        if (connect_to_light(path, &scene, settings, of_path, light_index)) {
             push_slot(&shadow, path.slot);
         }
     }

@@ -29,7 +29,10 @@ __kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *fi
     const Path path = {words, 1u, 0u};
     RayCounts rays = {0u, 0u};
     FOR_EACH_ENTRY(i, work - first_work) {
-        start_camera_item(path, camera, settings, first_sample, live, first_work + i, work);
+        const uint item = first_work + i;
+        const CameraItem of = camera_item(live, item, work);
+        start_camera_path(path, camera, item, of,
+                          path_sample(settings, of.pixel, first_sample + of.sample, BLOCK_CAMERA));
         while (advance_path(path, &scene, camera, film, settings, first_sample, &rays)) {
         }
         retire_path(path, film, half_film_words);

@@ -108,6 +108,22 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_EQ(render_words(with({"integrator.sampler=sobol", "device.features=all"}), 1), sobol);
 }
 
+// With Sobol points, a CPU draws the words of sixteen paths together where a work-item has as many.
+TEST(Pipeline, DrawsTheSameWordsInBatchesAndOneByOne) {
+    for (const std::string sampler : {"sobol", "regular"}) {
+        const auto with_chunk = [&](const std::string &chunk) {
+            RenderSettings settings =
+                small({"integrator.sampler=" + sampler, "device.stream_chunk=" + chunk});
+            settings.algorithm =
+                &algorithm_named(sampler == "sobol" ? "truncated_bdpt" : "whitted");
+            return render_words(settings);
+        };
+        const std::vector<int64_t> words = with_chunk("1");
+        EXPECT_EQ(with_chunk("16"), words) << sampler;
+        EXPECT_EQ(with_chunk("20"), words) << sampler;
+    }
+}
+
 /// Without scattering, some algorithms see the lamp in both passes and must weight only these two
 /// contributions.
 TEST_P(Algorithms, GiveTheImageOfEverythingCompiledInWhereNothingScatters) {

@@ -33,6 +33,8 @@
 #endif
 
 #define DEVICE static inline
+// A function that loops contain whose iterations the compiler is to turn into vector lanes.
+#define DEVICE_LANE static inline __attribute__((always_inline))
 #define GLOBAL __global
 #define PRIVATE __private
 #define CONSTANT static __constant
@@ -80,6 +82,7 @@ DEVICE uint lane_bits(int8 mask) {
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #define DEVICE [[maybe_unused]] static inline
+#define DEVICE_LANE DEVICE
 #define GLOBAL
 #define PRIVATE
 #define CONSTANT static const

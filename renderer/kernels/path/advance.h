@@ -41,7 +41,11 @@ DEVICE void add_light_samples(Path path, PRIVATE const SceneView *scene,
     const uint count = FEATURE_independent_lights ? scene->lighting.light_count : 1u;
     for (uint light = 0u; light < count; ++light) {
         const uint light_index = FEATURE_independent_lights ? light : SELECT_LIGHT;
-        if (connect_to_light(path, scene, settings, first_sample, light_index)) {
+        const WordSource source = camera_source(settings, light_stream(light_index),
+                                                get_pixel(path), first_sample + get_sample(path));
+        if (connect_to_light(path, scene, settings,
+                             words_of(settings, source, BLOCK_LIGHT(get_depth(path))),
+                             light_index)) {
             add_unblocked(path, scene);
             ++rays->shadow;
         }
@@ -67,5 +71,7 @@ DEVICE bool advance_path(Path path, PRIVATE const SceneView *scene, CameraRecord
         splat(path, scene, film);
         ++rays->shadow;
     }
-    return scatter(path, scene, settings, first_sample);
+    return scatter(path, scene, settings,
+                   path_sample(settings, get_pixel(path), first_sample + get_sample(path),
+                               BLOCK_SCATTER(get_depth(path))));
 }

@@ -4,24 +4,55 @@
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/path/trials.h"
-#include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/sampling/word_batch.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
 
-/// Starts sample `sample` of the batch in pixel `pixel`.
-DEVICE void start_camera_path(Path path, CameraRecord camera, IntegratorSettings settings,
-                              ulong first_sample, uint pixel, uint sample) {
-    const uint4 words = path_sample(settings, pixel, first_sample + sample, BLOCK_CAMERA);
-    uint column = pixel % camera.width, row = pixel / camera.width;
+/// Pixel and sample of an item of a batch of `work` items. The samples of a pixel are consecutive
+/// items, so that the pixel's film sums stay in a cache. Paths that are connected to light vertices
+/// instead cover all pixels sample by sample, as light paths do.
+typedef struct CameraItem {
+    uint pixel, sample;
+} CameraItem;
+
+/// Returns pixel and sample of item `item`.
+DEVICE CameraItem camera_item(LivePixels live, uint item, uint work) {
+    CameraItem of;
+    if (FEATURE_vertex_connections) {
+        of.pixel = live_pixel(live, item % live.count);
+        of.sample = item / live.count;
+    } else {
+        const uint samples = work / live.count;
+        of.pixel = live_pixel(live, item / samples);
+        of.sample = item % samples;
+    }
+    return of;
+}
+
+/// Requests the words of the camera paths from item `item` on.
+DEVICE void request_camera_words(PRIVATE WordRequests *requests, LivePixels live, uint item,
+                                 uint work) {
+    for (uint i = 0u; i < WORD_BATCH; ++i) {
+        const CameraItem of = camera_item(live, min(item + i, work - 1u), work);
+        requests->pixel[i] = of.pixel;
+        requests->sample[i] = of.sample;
+        requests->block[i] = BLOCK_CAMERA;
+    }
+}
+
+/// Starts the path of item `item` of the batch, by the words of BLOCK_CAMERA.
+DEVICE void start_camera_path(Path path, CameraRecord camera, uint item, CameraItem of,
+                              uint4 words) {
+    uint column = of.pixel % camera.width, row = of.pixel / camera.width;
     if (FEATURE_crop) {
         column += camera.crop_x;
         row += camera.crop_y;
     }
     const float x = (float)column + uniform_float(words.x);
     const float y = (float)row + uniform_float(words.y);
-    set_pixel(path, pixel);
-    set_sample(path, sample);
+    set_pixel(path, of.pixel);
+    set_sample(path, of.sample);
     set_depth(path, 0u);
     const CameraRay ray = camera_ray(camera, x, y, uniform_float(words.z), uniform_float(words.w));
     set_ray_origin(path, ray.origin);
@@ -34,23 +65,6 @@ DEVICE void start_camera_path(Path path, CameraRecord camera, IntegratorSettings
         set_pdf_w(path, camera_pdf_w(camera, ray.direction));
     }
     set_log_strategies(path, -INFINITY);
-}
-
-/// Starts item `item` of a batch of `work` items. The samples of a pixel are consecutive items, so
-/// that the pixel's film sums stay in a cache. Paths that are connected to light vertices instead
-/// cover all pixels sample by sample, as light paths do.
-DEVICE void start_camera_item(Path path, CameraRecord camera, IntegratorSettings settings,
-                              ulong first_sample, LivePixels live, uint item, uint work) {
-    uint pixel, sample;
-    if (FEATURE_vertex_connections) {
-        pixel = item % live.count;
-        sample = item / live.count;
-    } else {
-        const uint samples = work / live.count;
-        pixel = item / samples;
-        sample = item % samples;
-    }
-    start_camera_path(path, camera, settings, first_sample, live_pixel(live, pixel), sample);
     if (FEATURE_light_path_trials) {
         start_trials(path, item);
     }

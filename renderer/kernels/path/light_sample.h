@@ -46,9 +46,10 @@ DEVICE float light_over_explicit(Path path, PRIVATE const SceneView *scene, Surf
 }
 
 /// Connects the hit of a path to light `light_index`, or to a light selected at random for
-/// SELECT_LIGHT, and prepares the shadow ray. Returns false if the connection contributes nothing.
+/// SELECT_LIGHT, by the words of BLOCK_LIGHT, and prepares the shadow ray. Returns false if the
+/// connection contributes nothing.
 DEVICE bool connect_to_light(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
-                             ulong first_sample, uint light_index) {
+                             uint4 words, uint light_index) {
     const uint primitive = get_hit_primitive(path);
     const uint depth = get_depth(path);
     if (primitive == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
@@ -61,10 +62,6 @@ DEVICE bool connect_to_light(Path path, PRIVATE const SceneView *scene, Integrat
     if (is_delta_material(scene->materials[hit.material])) {
         return false;
     }
-    // Lights that are sampled one after the other have their own random streams.
-    const uint stream = light_index == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(light_index);
-    const uint4 words = sample_words(settings, stream, get_pixel(path),
-                                     first_sample + get_sample(path), BLOCK_LIGHT(depth));
     const LightSample light = sample_lights(scene, light_index, hit.point.position, words);
     if (!(light.pdf_w > 0.0f)) {
         return false;

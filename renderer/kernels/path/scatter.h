@@ -6,7 +6,7 @@
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/mis/truncated.h"
-#include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/sampling/random.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
@@ -83,9 +83,10 @@ DEVICE void continue_ratios(Path path, IntegratorSettings settings, uint depth, 
     }
 }
 
-/// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
+/// Samples scattering at the hit, by the words of BLOCK_SCATTER, and moves the path's ray there.
+/// Returns false if the path ends.
 DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
-                    ulong first_sample) {
+                    uint4 words) {
     const uint primitive = get_hit_primitive(path);
     const uint depth = get_depth(path);
     if (!FEATURE_scattering || primitive == NO_HIT || is_last_hit(settings, depth)) {
@@ -93,8 +94,6 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
     const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(path));
-    const uint4 words = path_sample(settings, get_pixel(path), first_sample + get_sample(path),
-                                    BLOCK_SCATTER(depth));
     const BsdfSample sample = bsdf_sample(scene, hit.material, frame, uniform_float(words.w),
                                           uniform_float(words.x), uniform_float(words.y));
     if (!(sample.pdf_w > 0.0f)) {

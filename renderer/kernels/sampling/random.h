@@ -5,14 +5,19 @@
 #pragma once
 
 #include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
 
 #include "Random123/philox.h"
 
 // Random streams. Each pass of an algorithm has its own.
 #define STREAM_CAMERA 0u
 #define STREAM_LIGHT_PATHS 1u
-// Stream of light `light` if all lights are sampled one after the other.
-#define STREAM_LIGHT(light) (16u + (light))
+
+/// Returns the random stream of connections to light `light_index`. Lights that are sampled one
+/// after the other have their own.
+DEVICE uint light_stream(uint light_index) {
+    return light_index == SELECT_LIGHT ? STREAM_CAMERA : 16u + light_index;
+}
 
 // Blocks of four random words. Each vertex of a path has two.
 #define BLOCK_CAMERA 0u
@@ -22,7 +27,7 @@
 
 /// Returns four independent uniform 32-bit words. `sample` has 64 bits, because 200k samples per
 /// pixel times 65536 pixels times the dimensions of a path exceed 2^32.
-DEVICE uint4 random_words(uint seed, uint stream, uint pixel, ulong sample, uint block) {
+DEVICE_LANE uint4 random_words(uint seed, uint stream, uint pixel, ulong sample, uint block) {
     const philox4x32_ctr_t counter = {{pixel, (uint)sample, (uint)(sample >> 32), block}};
     const philox4x32_key_t key = {{seed, stream}};
     const philox4x32_ctr_t words = philox4x32(counter, key);
@@ -31,7 +36,7 @@ DEVICE uint4 random_words(uint seed, uint stream, uint pixel, ulong sample, uint
 
 /// Returns four uniform words of other numbers, which serve as seeds, at two thirds of the cost of
 /// random_words: seven rounds, the fewest that pass all tests of the authors.
-DEVICE uint4 seed_words(uint seed, uint stream, uint pixel, ulong sequence, uint block) {
+DEVICE_LANE uint4 seed_words(uint seed, uint stream, uint pixel, ulong sequence, uint block) {
     const philox4x32_ctr_t counter = {{pixel, (uint)sequence, (uint)(sequence >> 32), block}};
     const philox4x32_key_t key = {{seed, stream}};
     const philox4x32_ctr_t words = philox4x32_R(7u, counter, key);

@@ -150,7 +150,8 @@ IntegratorSettings settings_of(uint32_t sampler, uint32_t seed) {
 }
 uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample,
                        uint32_t block) {
-    return sample_words(settings_of(sampler, seed), STREAM_CAMERA, pixel, sample, block);
+    const IntegratorSettings settings = settings_of(sampler, seed);
+    return words_of(settings, camera_source(settings, STREAM_CAMERA, pixel, sample), block);
 }
 uint4 sobol_sample(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
     return stratified_words(SAMPLER_SOBOL, seed, pixel, sample, block);
@@ -235,9 +236,9 @@ TEST(Sobol, AllLightPathsOfASequenceAreStratified) {
             std::vector<uint4> points;
             for (uint64_t sample = 0; sample < 4; ++sample) {
                 for (uint32_t path = 0; path < paths; ++path) {
-                    points.push_back(words_of_path(settings, STREAM_LIGHT_PATHS, 0,
-                                                   sample * SOBOL_SEQUENCES + sequence, paths, path,
-                                                   block));
+                    const WordSource source = {STREAM_LIGHT_PATHS, 0,
+                                               sample * SOBOL_SEQUENCES + sequence, paths, path};
+                    points.push_back(words_of(settings, source, block));
                 }
             }
             expect_stratified(points, 6);

@@ -17,7 +17,7 @@
 
 #include "renderer/shared/compat.h"
 
-DEVICE uint reverse_bits(uint x) {
+DEVICE_LANE uint reverse_bits(uint x) {
     x = (x >> 16) | (x << 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
@@ -26,17 +26,13 @@ DEVICE uint reverse_bits(uint x) {
 }
 
 /// Reverses the bits of each word.
-DEVICE uint4 reverse_all_bits(uint4 v) {
-    v = (v >> 16) | (v << 16);
-    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
-    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
-    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
-    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+DEVICE_LANE uint4 reverse_all_bits(uint4 v) {
+    return make_uint4(reverse_bits(v.x), reverse_bits(v.y), reverse_bits(v.z), reverse_bits(v.w));
 }
 
 /// Permutes the bit-reversed x at random so that every bit depends only on the more significant
 /// ones, those below it: nested uniform scrambling in base 2.
-DEVICE uint scramble_reversed(uint x, uint seed) {
+DEVICE_LANE uint scramble_reversed(uint x, uint seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -45,7 +41,7 @@ DEVICE uint scramble_reversed(uint x, uint seed) {
 }
 
 /// Returns dimension 2, bit-reversed, of the point whose index has the bits `v`: p = t + 1.
-DEVICE uint sobol_dimension_2(uint v) {
+DEVICE_LANE uint sobol_dimension_2(uint v) {
     v ^= v >> 16;
     v ^= (v >> 8) & 0x00ff00ffu;
     v ^= (v >> 4) & 0x0f0f0f0fu;
@@ -56,7 +52,7 @@ DEVICE uint sobol_dimension_2(uint v) {
 /// Returns dimension 3, bit-reversed: p = t^2 + t + 1, m = 1, 3. A division by t^2q + t^q + 1
 /// leaves the quotient in the upper half of each part, and the remainder in the lower half. The
 /// last line replaces the digits of base p by those of v_0 and v_1.
-DEVICE uint sobol_dimension_3(uint v) {
+DEVICE_LANE uint sobol_dimension_3(uint v) {
     v ^= (v >> 8) & 0x00ff0000u;
     v ^= (v >> 16) ^ ((v >> 8) & 0x0000ff00u);
     v ^= (v >> 4) & 0x0f000f00u;
@@ -70,7 +66,7 @@ DEVICE uint sobol_dimension_3(uint v) {
 
 /// Returns dimension 4, bit-reversed: p = t^3 + t + 1, m = 1, 3, 1. The parts have 24, 12, 6 and 3
 /// bits; the word cuts off the last one.
-DEVICE uint sobol_dimension_4(uint v) {
+DEVICE_LANE uint sobol_dimension_4(uint v) {
     v ^= (v >> 24) ^ ((v >> 16) & 0x0000ff00u);
     v ^= (v >> 8) & 0x0000f000u;
     v ^= ((v >> 12) & 0x00000fffu) ^ ((v >> 8) & 0x00000ff0u);
@@ -83,14 +79,14 @@ DEVICE uint sobol_dimension_4(uint v) {
 
 /// Returns the point of the unscrambled sequence whose index has these bits. Its words are
 /// bit-reversed.
-DEVICE uint4 reversed_sobol_point(uint bits) {
+DEVICE_LANE uint4 reversed_sobol_point(uint bits) {
     return make_uint4(bits, sobol_dimension_2(bits), sobol_dimension_3(bits),
                       sobol_dimension_4(bits));
 }
 
 /// Returns point `index` of a sequence. `order` determines the order of its points, `seeds` the
 /// scramblings of the dimensions.
-DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
+DEVICE_LANE uint4 sobol_point(uint index, uint order, uint4 seeds) {
     // The index is scrambled as a number whose lowest bit is the last one, so that any 2^k
     // consecutive points stay together.
     const uint4 point =
