@@ -134,6 +134,10 @@ void prefer_huge_pages(cl_command_queue queue, cl_mem memory, uint64_t bytes) {
 
 }  // namespace
 
+bool is_pocl(const DeviceInfo &device) {
+    return device.platform_name.find("Portable Computing Language") != std::string::npos;
+}
+
 std::vector<DeviceInfo> list_devices() {
     cl_uint platform_count = 0;
     // The loader reports a missing platform as an error (-1001, cl_khr_icd). The result is an empty
@@ -181,10 +185,8 @@ void RecentPrograms::add(const std::string &key, std::shared_ptr<const BuiltProg
 
 DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
     : info_(select_device(spec)) {
-    const bool is_pocl =
-        info_.platform_name.find("Portable Computing Language") != std::string::npos;
-    keeps_binaries_ = binaries == Binaries::keep || !is_pocl;
-    if (is_pocl) {
+    keeps_binaries_ = binaries == Binaries::keep || !is_pocl(info_);
+    if (is_pocl(info_)) {
         explain_pocl_crashes();
     }
     cl_int status = CL_SUCCESS;

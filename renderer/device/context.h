@@ -32,6 +32,9 @@ struct DeviceInfo {
     uint64_t global_memory;   ///< bytes
 };
 
+/// Returns whether a device is one of PoCL, which has its own cache of kernels.
+bool is_pocl(const DeviceInfo &device);
+
 /// Returns all devices of all platforms, grouped by platform. Platforms that cannot list their
 /// devices are skipped.
 std::vector<DeviceInfo> list_devices();

@@ -14,6 +14,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/device/pocl_cache.h"
 
 namespace rtrays {
 
@@ -165,8 +166,13 @@ std::shared_ptr<const BuiltProgram> Program::compile(const std::string &source,
     const std::string options = program_options(device_->info());
     status = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
     if (status != CL_SUCCESS) {
-        throw run_error(fmt::format("building {}: {}\n{}", names, cl_status_name(status),
-                                    build_log(program.get(), device, source)));
+        const std::string log = build_log(program.get(), device, source);
+        const bool is_explained = log.find("error:") != std::string::npos;
+        throw run_error(fmt::format(
+            "building {}: {}\n{}{}", names, cl_status_name(status), log,
+            is_explained || !is_pocl(device_->info())
+                ? ""
+                : "PoCL's cache may be on a full disk: " + pocl_cache_directory() + "\n"));
     }
     if (!device_->keeps_binaries()) {
         return std::make_shared<BuiltProgram>(BuiltProgram{std::move(program), 0});
