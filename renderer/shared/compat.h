@@ -33,7 +33,7 @@
 #endif
 
 #define DEVICE static inline
-// A function that loops contain whose iterations the compiler is to turn into vector lanes.
+// For functions in loops that the compiler should vectorise. LLVM vectorises no loop with calls.
 #define DEVICE_LANE static inline __attribute__((always_inline))
 #define GLOBAL __global
 #define PRIVATE __private

@@ -33,8 +33,8 @@ DEVICE_LANE WordSource camera_source(IntegratorSettings settings, uint stream, u
     return source;
 }
 
-/// Returns the source of the words of the path in `pixel`, in a light pass of light path `pixel`.
-/// All light paths of a sample and of the later ones share their sequence.
+/// Returns the source of a path's words. In a light pass, `pixel` is the index of the light path
+/// within its sample, and `stream` is not read. All light paths share one sequence.
 DEVICE_LANE WordSource path_source(IntegratorSettings settings, uint stream, uint pixel,
                                    ulong sample) {
     if (FEATURE_from_light) {
