@@ -228,7 +228,15 @@ ExitCode run(int argc, char **argv) {
     }
     Options &options = *parsed;
     check_outputs(options);
-    Scene scene = load_scene(options.scene, true, parse_defines(options.defines));
+    Scene scene = load_scene(options.scene, true, parse_defines(options.scene_options.defines));
+    for (const std::string &assignment : options.assignments) {
+        if (!set_scene_property(scene, assignment)) {
+            throw input_error(fmt::format(
+                "--set {}: expected scene.ADDRESS=VALUE; the reference has no other settings",
+                assignment));
+        }
+    }
+    change_scene(scene, options.scene_options);
     set_film(options, scene);
     options.settings.camera = static_cast<size_t>(scene.active_camera());
     return options.engine == "embree" ? render_by_embree(options, scene)

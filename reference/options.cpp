@@ -94,9 +94,11 @@ std::optional<Options> parse_options(int argc, char **argv) {
                    "renderer: embree, mitsuba or cycles; exit code 77 if it is not installed")
         ->check(CLI::IsMember({"embree", "mitsuba", "cycles"}))
         ->capture_default_str();
-    app.add_option("--define", options.defines,
-                   "value of a <default> parameter of a Mitsuba scene: NAME=VALUE; may be repeated")
+    app.add_option("--set", options.assignments,
+                   "change a property of the scene: scene.ADDRESS=VALUE, as rtrays-render "
+                   "--print-scene lists; may be repeated")
         ->allow_extra_args(false);
+    add_scene_options(app, options.scene_options);
     app.add_option("--size", size, "film size WIDTHxHEIGHT; default: the scene's");
     app.add_option(
         "--crop", crop,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/settings.h"
+#include "renderer/import/scene_options.h"
 #include "renderer/scene/scene.h"
 
 namespace rtrays::reference {
@@ -16,14 +17,15 @@ namespace rtrays::reference {
 struct Options {
     std::string scene;
     std::string output;
-    std::string state;                 ///< default: OUTPUT.state
-    std::string stats;                 ///< empty: not written
-    std::string manifest;              ///< empty: not updated
-    std::string engine = "embree";     ///< "embree", "mitsuba" or "cycles"
-    std::vector<std::string> defines;  ///< NAME=VALUE, parameters of a Mitsuba scene
-    std::optional<FilmCrop> crop;      ///< window of the picture; nothing: the scene's
-    bool uncropped = false;            ///< the full picture, even if the scene crops its film
-    ReferenceSettings settings;        ///< width and height 0: the scene's film size
+    std::string state;              ///< default: OUTPUT.state
+    std::string stats;              ///< empty: not written
+    std::string manifest;           ///< empty: not updated
+    std::string engine = "embree";  ///< "embree", "mitsuba" or "cycles"
+    SceneOptions scene_options;
+    std::vector<std::string> assignments;  ///< scene.ADDRESS=VALUE
+    std::optional<FilmCrop> crop;          ///< window of the picture; nothing: the scene's
+    bool uncropped = false;                ///< the full picture, even if the scene crops its film
+    ReferenceSettings settings;            ///< width and height 0: the scene's film size
     uint64_t begin = 0;
     uint64_t end = 0;
     double checkpoint_interval = 60.0;  ///< seconds

@@ -55,13 +55,9 @@ Image select_layers(const Image &image, const std::vector<std::string> &layers) 
     return selected;
 }
 
-void write_images(const Image &image, const std::vector<std::string> &outputs, double exposure,
-                  bool quiet) {
+void write_images(const Image &image, const std::vector<std::string> &outputs, double exposure) {
     for (const std::string &path : outputs) {
         write_image(image, path, exposure);
-        if (!quiet) {
-            fmt::print(stderr, "wrote {} ({} x {})\n", path, image.width(), image.height());
-        }
     }
 }
 
@@ -108,6 +104,18 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
         }
     };
     const auto start = SteadyClock::now();
+    auto last_save = start, last_preview = start;
+    const auto keep_up = [&] {
+        if (seconds_since(last_save) > options.checkpoint_interval) {
+            save();
+            last_save = SteadyClock::now();
+        }
+        if (options.preview && seconds_since(last_preview) > *options.preview) {
+            write_images(select_layers(session.develop(), options.layers), options.outputs,
+                         options.exposure);
+            last_preview = SteadyClock::now();
+        }
+    };
     if (options.seconds) {
         Progress progress("rendering", static_cast<uint64_t>(*options.seconds * 1000), "ms",
                           options.quiet);
@@ -121,6 +129,7 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
             }
             const double before = session.stats().wall_seconds;
             range.begin = session.render(range.begin, range.begin + step);
+            keep_up();
             // A step of about a tenth of the time left, predicted from the last one, keeps the
             // overshoot small.
             const double rate =
@@ -131,14 +140,9 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
     } else {
         Progress progress("rendering", range.end, "spp", options.quiet);
         progress.update(range.begin);
-        const auto checkpoint_interval = std::chrono::minutes(5);
-        auto last_save = start;
         const uint64_t end = session.render(range.begin, range.end, [&](uint64_t done) {
             progress.update(done);
-            if (SteadyClock::now() - last_save > checkpoint_interval) {
-                save();
-                last_save = SteadyClock::now();
-            }
+            keep_up();
         });
         save();
         return end == range.end;
@@ -169,9 +173,12 @@ RenderSession session_of(Scene &scene, const Options &options, DeviceContext &de
     if (refits) {
         scene.update(0);
     }
+    // Nothing is lost yet, and the driver's compiler does not return for seconds.
+    const InterruptsEndAtOnce at_once;
+    const Waiting waiting("compiling kernels and building the hierarchy", options.quiet);
     RenderSession session(scene, options.settings, device);
     if (refits) {
-        scene.update(options.scene_time);
+        scene.update(options.scene_options.time);
         session.update(scene);
     }
     return session;
@@ -194,15 +201,33 @@ void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
     }
 }
 
+/// Prints what was written, and how long it took.
+void print_summary(const RenderSession &session, const Options &options) {
+    const RenderStats stats = session.stats();
+    const double samples =
+        static_cast<double>(stats.samples) / std::max(stats.wall_seconds, 1e-9) / 1e6;
+    for (const std::string &path : options.outputs) {
+        fmt::print(stderr, "wrote {} ({} x {})\n", path, session.settings().width,
+                   session.settings().height);
+    }
+    fmt::print(stderr, "rendered in {:.1f} s, {:.3g} million samples per second\n",
+               stats.wall_seconds, samples);
+}
+
 /// Writes the images, if the render is complete, and the statistics.
 void write_results(const RenderSession &session, const Options &options, bool complete) {
     // Before the development of the image, which is no part of the render's times.
     const std::string report = options.stats.empty() ? "" : session.report().dump(2) + "\n";
     if (complete) {
-        const Image image = select_layers(session.develop(), options.layers);
-        write_or_keep(session, options, [&] {
-            write_images(image, options.outputs, options.exposure, options.quiet);
-        });
+        {
+            const Waiting waiting("writing the image", options.quiet);
+            const Image image = select_layers(session.develop(), options.layers);
+            write_or_keep(session, options,
+                          [&] { write_images(image, options.outputs, options.exposure); });
+        }
+        if (!options.quiet) {
+            print_summary(session, options);
+        }
     }
     if (!options.stats.empty()) {
         write_file(options.stats, report);
@@ -211,11 +236,12 @@ void write_results(const RenderSession &session, const Options &options, bool co
 
 ExitCode run(Options &options) {
     require_consistent(options);
-    Scene scene = load_scene(options.scene, options.quiet, parse_defines(options.defines));
+    Scene scene =
+        load_scene(options.scene, options.quiet, parse_defines(options.scene_options.defines));
     apply_options(options, scene);
-    scene.update(options.scene_time);
+    change_scene(scene, options.scene_options);
     if (options.print_scene) {
-        fmt::print("{}", scene.describe());
+        fmt::print("{}", options.json ? scene.describe_json() : scene.describe());
         return ExitCode::ok;
     }
     set_size(options, scene);
@@ -241,7 +267,7 @@ ExitCode run(Options &options) {
         fmt::print(stderr, "interrupted{}\n",
                    options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
                                          : "; continue with --resume --state " + options.state);
-        return ExitCode::run_failed;
+        return ExitCode::interrupted;
     }
     return ExitCode::ok;
 }
@@ -261,7 +287,7 @@ ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::st
     require_valid(film);
     Image image = develop_film(film);
     describe_image(image, film);
-    write_images(image, outputs, exposure, true);
+    write_images(image, outputs, exposure);
     if (!state.empty()) {
         save_film(film, state);
     }
@@ -271,7 +297,7 @@ ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::st
 ExitCode develop(const std::string &input, const std::vector<std::string> &outputs,
                  double exposure) {
     require_outputs(outputs, std::filesystem::path(input).stem().string());
-    write_images(read_exr(input), outputs, exposure, true);
+    write_images(read_exr(input), outputs, exposure);
     return ExitCode::ok;
 }
 

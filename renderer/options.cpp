@@ -111,15 +111,7 @@ void apply_options(Options &options, Scene &scene) {
     options.settings.algorithm = &algorithm_named(options.algorithm);
     options.settings.sampler = default_sampler(*options.settings.algorithm);
     for (const std::string &assignment : options.assignments) {
-        const std::string scene_prefix = "scene.";
-        if (assignment.rfind(scene_prefix, 0) == 0) {
-            const size_t equals = assignment.find('=');
-            if (equals == std::string::npos) {
-                throw input_error(fmt::format("--set {}: expected NAME=VALUE", assignment));
-            }
-            scene.set_property(assignment.substr(scene_prefix.size(), equals - scene_prefix.size()),
-                               assignment.substr(equals + 1));
-        } else {
+        if (!set_scene_property(scene, assignment)) {
             apply_setting(options.settings, assignment);
         }
     }
@@ -199,24 +191,30 @@ void add_options(CLI::App &app, Options &options) {
         "window X,Y,WxH of the picture to render, in pixels from its top left corner, or "
         "none (default: the scene's)");
     app.add_option("--size", options.size, "image size WxH in pixels (default: the scene's film)");
-    app.add_option("--at", options.scene_time, "scene time in seconds")->capture_default_str();
     app.add_option("--device", options.device,
                    "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
     app.add_option("--state", options.state, "film file to write, for --resume and merge");
+    app.add_option("--checkpoint-interval", options.checkpoint_interval,
+                   "seconds between writes of the film of --state")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_option("--preview", options.preview,
+                   "write the images while they render, every so many seconds")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--resume", options.resume, "continue from the film of --state if it exists");
     app.add_flag("--overwrite", options.overwrite, "replace the film of --state if it exists");
     app.add_option("--set", options.assignments, "change a setting: NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
-    app.add_option("--define", options.defines,
-                   "value of a <default> parameter of a Mitsuba scene: NAME=VALUE; may be repeated")
-        ->allow_extra_args(false);
+    add_scene_options(app, options.scene_options);
     app.add_option("--stats", options.stats,
                    "write a .json with features, kernels, bytes, launches and seconds");
     app.add_option("--layers", options.layers, "layers of the EXR besides R,G,B")
         ->delimiter(',')
         ->check(CLI::IsMember({"variance", "samples", "passes", "strategies", "none"}))
         ->capture_default_str();
-    app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
+    auto *print =
+        app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
+    app.add_flag("--json", options.json, "print the scene as JSON, for programs")->needs(print);
     app.add_flag("--dry-run", options.dry_run,
                  "compile everything and print the statistics; render nothing");
     app.add_flag("-q,--quiet", options.quiet, "print no progress");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "renderer/film/film.h"
+#include "renderer/import/scene_options.h"
 #include "renderer/scene/scene.h"
 #include "renderer/session/settings.h"
 
@@ -29,18 +30,20 @@ struct Options {
     std::string samples;
     std::optional<uint64_t> spp;
     std::optional<double> seconds;
-    double scene_time = 0;
+    SceneOptions scene_options;
     std::string device;
     std::string state;
     std::string stats;
     std::vector<std::string> assignments;
-    std::vector<std::string> defines;
     std::vector<std::string> layers = {"variance", "samples"};
+    double checkpoint_interval = 300;  ///< seconds between films
+    std::optional<double> preview;     ///< seconds between images while it renders
     bool resume = false;
     bool overwrite = false;
     bool quiet = false;
     bool dry_run = false;
     bool print_scene = false;
+    bool json = false;  ///< the form of --print-scene
     bool list_devices = false;
     bool list_algorithms = false;
     std::string algorithm = algorithms::path_tracing.name;

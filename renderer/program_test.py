@@ -428,13 +428,45 @@ class Program(unittest.TestCase):
         command = [PROGRAM, str(CORNELL), "-o", str(self.output()), "--spp", "1000000",
                    "--state", str(state)]
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-        self.assertIn("rendering: ", process.stderr.readline())  # rendering has started
+        while "rendering: " not in process.stderr.readline():
+            self.assertIsNone(process.poll())
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 1, errors)
+        self.assertEqual(process.returncode, 130, errors)
         self.assertIn("--resume", errors)
         self.assertTrue(state.exists())
         self.assertFalse(self.output().exists())
+
+    def test_an_interrupt_ends_compilation_at_once(self):
+        caches = self.path / "caches"
+        caches.mkdir()
+        environment = dict(os.environ, POCL_CACHE_DIR=str(caches), RTRAYS_CACHE_DIR=str(caches))
+        process = subprocess.Popen([PROGRAM, str(CORNELL), "-o", str(self.output()), *SMALL],
+                                   stderr=subprocess.PIPE, text=True, env=environment)
+        while not any(caches.iterdir()):
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        _, errors = process.communicate(timeout=120)
+        self.assertLess(time.monotonic() - start, 0.5)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("interrupted", errors)
+
+    def test_a_preview_is_written_while_it_renders(self):
+        command = [PROGRAM, str(CORNELL), "-o", str(self.output()), "--spp", "1000000",
+                   "--size", "32x32", "--preview", "0.1"]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        while not self.output().exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=120)
+        self.run_program("develop", self.output(), "-o", self.path / "preview.png")
+
+    def test_a_render_ends_with_what_it_wrote_and_how_long_it_took(self):
+        errors = self.run_program(CORNELL, "-o", self.output(), *SMALL).stderr
+        self.assertRegex(errors, r"wrote .* \(\d+ x \d+\)\nrendered in [\d.]+ s, .* per second\n$")
 
 
 if __name__ == "__main__":

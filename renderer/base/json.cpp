@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -285,10 +286,10 @@ std::string shown(const Json &value) {
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-/// Explains what is wrong with `value` in terms of the schema. The validator reports only the path
-/// and a general reason ("could not be validated"), never the legal values.
-std::string explain(const Json &value, const std::vector<const Json *> &nodes,
-                    const std::string &description) {
+/// Explains what is wrong with `value` in terms of the schema, in one or more sentences. The
+/// validator reports only the path and a general reason ("could not be validated"), never the legal
+/// values. Empty if the schema's terms do not tell.
+std::vector<std::string> explain(const Json &value, const std::vector<const Json *> &nodes) {
     const std::vector<Json> types = gathered(nodes, "type");
     if (!types.empty()) {
         bool matches = false;
@@ -298,9 +299,10 @@ std::string explain(const Json &value, const std::vector<const Json *> &nodes,
                       (type == "number" && value.is_number());
         }
         if (!matches) {
-            return fmt::format("{} is not of type {}", shown(value), listed(types, " or "));
+            return {fmt::format("{} is not of type {}", shown(value), listed(types, " or "))};
         }
     }
+    std::vector<std::string> faults;
     if (value.is_object()) {
         std::vector<Json> allowed;
         bool closed = false;
@@ -316,22 +318,50 @@ std::string explain(const Json &value, const std::vector<const Json *> &nodes,
         for (const auto &member : value.items()) {
             if (closed &&
                 std::find(allowed.begin(), allowed.end(), member.key()) == allowed.end()) {
-                return fmt::format("unknown key '{}'; allowed: {}", member.key(),
-                                   listed(allowed, ", "));
+                faults.push_back(fmt::format("unknown key '{}'; allowed: {}", member.key(),
+                                             listed(allowed, ", ")));
             }
         }
         for (const Json &required : gathered(nodes, "required")) {
             if (!value.contains(required.get<std::string>())) {
-                return fmt::format("missing key '{}'", required.get<std::string>());
+                faults.push_back(fmt::format("missing key '{}'", required.get<std::string>()));
+                break;  // others may belong to alternatives
             }
         }
     }
     const std::vector<Json> choices = gathered(nodes, "enum");
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
-        return fmt::format("{} is not one of: {}", shown(value), listed(choices, ", "));
+        faults.push_back(fmt::format("{} is not one of: {}", shown(value), listed(choices, ", ")));
     }
-    return fmt::format("{}: {}", shown(value), description);
+    return faults;
 }
+
+/// An error of the validator: "[key]" from the root to the value, and a general reason.
+using SchemaError = valijson::ValidationResults::Error;
+
+/// Returns the errors whose values contain no other error. Every enclosing value repeats the errors
+/// of its members.
+std::vector<SchemaError> innermost(const valijson::ValidationResults &results) {
+    std::map<std::vector<std::string>, std::string> reasons;
+    for (const SchemaError &error : results) {
+        reasons.emplace(error.context, error.description);
+    }
+    std::vector<SchemaError> causes;
+    for (auto entry = reasons.begin(); entry != reasons.end(); ++entry) {
+        // A prefix is sorted directly before what it begins.
+        const auto next = std::next(entry);
+        const bool is_prefix =
+            next != reasons.end() && next->first.size() > entry->first.size() &&
+            std::equal(entry->first.begin(), entry->first.end(), next->first.begin());
+        if (!is_prefix) {
+            causes.push_back({entry->first, entry->second});
+        }
+    }
+    return causes;
+}
+
+/// Most errors of a file that one message has. Each one is located by parsing the text again.
+constexpr size_t most_errors = 10;
 
 }  // namespace
 
@@ -366,30 +396,36 @@ void validate_json(const Json &document, const std::string &schema_text,
     if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results)) {
         return;
     }
-    // Every enclosing value repeats the error of its member; the deepest path is the cause.
-    const auto deepest = std::max_element(
-        results.begin(), results.end(),
-        [](const auto &a, const auto &b) { return a.context.size() < b.context.size(); });
-    std::vector<std::string> path;
-    std::string pointer;
-    std::string description = "does not match the schema";
-    const Json *value = &document;
-    const std::string *name = name_of(document);
-    if (deepest != results.end()) {
-        description = deepest->description;
-        for (size_t i = 1; i < deepest->context.size(); ++i) {  // [0] is the root
-            const std::string &token = deepest->context[i];     // "[key]"
+    std::vector<std::string> known, general;  // whether the schema's terms tell what is wrong
+    const std::vector<SchemaError> causes = innermost(results);
+    for (const SchemaError &error : causes) {
+        if (known.size() >= most_errors || general.size() >= 2 * most_errors) {
+            break;
+        }
+        std::vector<std::string> path;
+        std::string pointer;
+        const Json *value = &document;
+        const std::string *name = name_of(document);
+        for (size_t i = 1; i < error.context.size(); ++i) {  // [0] is the root
+            const std::string &token = error.context[i];     // "[key]"
             path.push_back(token.substr(1, token.size() - 2));
             pointer += "/" + escaped(path.back());
             value =
                 value->is_array() ? &value->at(std::stoul(path.back())) : &value->at(path.back());
             name = name_of(*value) != nullptr ? name_of(*value) : name;
         }
+        const std::string location =
+            fmt::format("{}{}", json_location(source_name, text, pointer),
+                        name != nullptr ? fmt::format(" (in '{}')", *name) : "");
+        for (const std::string &fault : explain(*value, schema_nodes(schema_document, path))) {
+            known.push_back(fmt::format("{}: {}", location, fault));
+        }
+        general.push_back(fmt::format("{}: {}: {}", location, shown(*value), error.description));
     }
-    throw input_error(
-        fmt::format("{}{}: {}", json_location(source_name, text, pointer),
-                    name != nullptr ? fmt::format(" (in '{}')", *name) : "",
-                    explain(*value, schema_nodes(schema_document, path), description)));
+    // Alternatives that were not meant cause general errors beside the known ones.
+    std::vector<std::string> &errors = known.empty() ? general : known;
+    errors.resize(std::min(errors.size(), most_errors));
+    throw input_error(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
 }  // namespace rtrays

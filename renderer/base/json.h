@@ -30,7 +30,7 @@ std::string json_location(const std::string &source_name, const std::string &tex
 /// Validates `document` against a JSON Schema (draft 7). If it fails, throws `Error` (bad input)
 /// naming the source, the path of the value and what is wrong with it. For an unknown key or enum
 /// value the message lists the alternatives. It also names the line if `text` is the text that
-/// `document` was parsed from.
+/// `document` was parsed from. Several errors are lines of one message, at most ten.
 void validate_json(const Json &document, const std::string &schema_text,
                    const std::string &source_name, const std::string &text = {});
 

@@ -7,7 +7,10 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 #include <utility>
+
+#include "renderer/base/error.h"
 
 namespace rtrays {
 
@@ -70,6 +73,42 @@ void Progress::print(uint64_t done, const char *end) const {
     std::fflush(stderr);
 }
 
+Waiting::Waiting(std::string task, bool quiet)
+    : task_(std::move(task)), terminal_(isatty(STDERR_FILENO)) {
+    if (!quiet) {
+        thread_ = std::thread([this] { tell(); });
+    }
+}
+
+Waiting::~Waiting() {
+    if (!thread_.joinable()) {
+        return;
+    }
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        done_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+    if (drawn_) {
+        fmt::print(stderr, "\r\x1b[K");
+        std::fflush(stderr);
+    }
+}
+
+void Waiting::tell() {
+    const auto start = SteadyClock::now();
+    const auto interval = std::chrono::seconds(terminal_ ? 1 : 10);
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!changed_.wait_for(lock, interval, [&] { return done_; })) {
+        const std::string elapsed = format_duration(seconds_since(start));
+        fmt::print(stderr, "{}{}: {} elapsed{}", terminal_ ? "\r" : "", task_, elapsed,
+                   terminal_ ? "\x1b[K" : "\n");
+        std::fflush(stderr);
+        drawn_ = terminal_;
+    }
+}
+
 bool interrupted() {
     return interrupt_flag.load(std::memory_order_relaxed);
 }
@@ -80,6 +119,27 @@ void install_interrupt_handler() {
     action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+}
+
+namespace {
+
+void end_at_once(int /*signal*/) {
+    constexpr std::string_view message = "\ninterrupted\n";
+    const ssize_t ignored = write(STDERR_FILENO, message.data(), message.size());
+    static_cast<void>(ignored);
+    _exit(static_cast<int>(ExitCode::interrupted));
+}
+
+}  // namespace
+
+InterruptsEndAtOnce::InterruptsEndAtOnce() {
+    struct sigaction action {};
+    action.sa_handler = end_at_once;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    if (interrupted()) {  // before
+        end_at_once(SIGINT);
+    }
 }
 
 }  // namespace rtrays

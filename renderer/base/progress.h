@@ -2,8 +2,11 @@
 // Progress messages, and interruption of long runs by signals.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "renderer/base/clock.h"
 
@@ -39,10 +42,41 @@ class Progress {
     SteadyClock::time_point last_print_;
 };
 
+/// Tells on stderr that a long step without units is running: on a terminal after a second, in a
+/// line that disappears at the end; otherwise in a line every ten seconds.
+class Waiting {
+  public:
+    Waiting(std::string task, bool quiet);
+    ~Waiting();
+    Waiting(const Waiting &) = delete;
+    Waiting &operator=(const Waiting &) = delete;
+
+  private:
+    void tell();
+
+    std::string task_;
+    bool terminal_;
+    bool drawn_ = false;
+    bool done_ = false;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::thread thread_;
+};
+
 /// Returns whether SIGINT or SIGTERM arrived since `install_interrupt_handler` was called. Long
 /// loops poll it, save a state that can be resumed, and return.
 bool interrupted();
 /// Installs the handler of SIGINT and SIGTERM. A second signal ends the process at once.
 void install_interrupt_handler();
+
+/// While an object lives, the first SIGINT or SIGTERM ends the process, with exit code 130. For
+/// long steps that do not poll `interrupted` and have no results yet.
+class InterruptsEndAtOnce {
+  public:
+    InterruptsEndAtOnce();
+    ~InterruptsEndAtOnce() { install_interrupt_handler(); }
+    InterruptsEndAtOnce(const InterruptsEndAtOnce &) = delete;
+    InterruptsEndAtOnce &operator=(const InterruptsEndAtOnce &) = delete;
+};
 
 }  // namespace rtrays

@@ -11,8 +11,9 @@
 namespace rtrays {
 
 /// Loads a scene, from JSON, from a Mitsuba file or from a model file (models/model_file.h), and
-/// updates it to time 0. Prints progress on stderr unless `quiet`. Throws `Error` (bad input)
-/// naming file, line and remedy.
+/// updates it to time 0. A JSON file with "base" is an overlay: that scene with other values of
+/// properties (json/schema/overlay.schema.json). Prints progress on stderr unless `quiet`. Throws
+/// `Error` (bad input) naming file, line and remedy.
 /// `defines` are values of the parameters of a Mitsuba file. Other formats have none.
 Scene load_scene(const std::string &path, bool quiet = true,
                  const std::map<std::string, std::string> &defines = {});

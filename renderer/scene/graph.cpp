@@ -45,12 +45,6 @@ std::vector<Property> properties_of(const Node &node) {
     return all;
 }
 
-/// Returns the line of `list_properties` for one property.
-std::string described(const std::string &owner, const Property &property) {
-    return fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name, property.text(),
-                       property.type(), property.help);
-}
-
 }  // namespace
 
 SceneGraph::SceneGraph()
@@ -284,6 +278,20 @@ void SceneGraph::share(const std::string &address, std::shared_ptr<PropertyHolde
     }
 }
 
+void SceneGraph::absorb(SceneGraph &other, Node &parent) {
+    const std::string prefix = parent.name() + "/";
+    for (const auto &[address, holder] : other.shared_) {
+        const size_t name = address.find('.') + 1;
+        share(address.substr(0, name) + prefix + address.substr(name), holder);
+    }
+    other.shared_.clear();
+    while (!other.root_->children().empty()) {
+        std::unique_ptr<Node> child = other.root_->remove_child(*other.root_->children().front());
+        child->add_prefix(prefix);
+        parent.add_child(std::move(child));
+    }
+}
+
 void SceneGraph::set_property(const std::string &address, const std::string &text) {
     const size_t dot = address.rfind('.');
     if (dot == std::string::npos) {
@@ -325,19 +333,31 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
                                   owner, name, some(names)));
 }
 
-std::string SceneGraph::list_properties() const {
-    std::string text;
+void SceneGraph::visit_properties(
+    const std::function<void(const std::string &, const Property &)> &visit,
+    const std::function<void(const std::string &, const std::string &)> &visit_use) const {
+    std::unordered_map<const PropertyHolder *, std::string> addresses;
     for (const auto &[address, holder] : shared_) {
+        addresses.emplace(holder.get(), address);
         for (const Property &property : holder->properties()) {
-            text += described(address, property);
+            visit(address, property);
         }
     }
     visit_subtree(*root_, [&](const Node &node) {
-        for (const Property &property : properties_of(node)) {
-            text += described(node.name(), property);
+        for (size_t role = 0; role < core_role_count; ++role) {
+            Core *core = node.core(static_cast<CoreRole>(role));
+            if (core == nullptr) {
+                continue;
+            }
+            if (const auto shared = addresses.find(core); shared != addresses.end()) {
+                visit_use(node.name(), shared->second);
+                continue;
+            }
+            for (const Property &property : core->properties()) {
+                visit(node.name(), property);
+            }
         }
     });
-    return text;
 }
 
 }  // namespace rtrays

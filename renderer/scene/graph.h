@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,12 +39,22 @@ class SceneGraph {
     /// and listings. Throws `Error` (bad input) if the address is taken.
     void share(const std::string &address, std::shared_ptr<PropertyHolder> holder);
 
+    /// Moves all nodes and shared objects of another graph into this one. The nodes become children
+    /// of `parent`, a node of this graph. The names of both begin with that of `parent` and a
+    /// slash: "materials.white" becomes "materials.PARENT/white". Throws `Error` (bad input) if a
+    /// name is taken; then the other graph is incomplete.
+    void absorb(SceneGraph &other, Node &parent);
+
     /// Sets "NODE.PROPERTY" or "SECTION.NAME.PROPERTY" from text. A core shared by several nodes
     /// changes for all of them. Throws `Error` (bad input) naming the address and the alternatives.
     void set_property(const std::string &address, const std::string &text);
 
-    /// Returns one line per property: address, value, type and meaning. Nodes are in tree order.
-    std::string list_properties() const;
+    /// Calls `visit(owner, property)` for every property: of shared objects, then of nodes in tree
+    /// order without those of shared objects. `set_property` finds it at "OWNER.PROPERTY". Calls
+    /// `visit_use(node, owner)` for every shared object of a node.
+    void visit_properties(
+        const std::function<void(const std::string &, const Property &)> &visit,
+        const std::function<void(const std::string &, const std::string &)> &visit_use) const;
 
     /// Advances animated cores to `time` (seconds) and writes all dirty records. Throws `Error`
     /// (bad input) if an object cannot be represented. The object then stays dirty, and the arrays

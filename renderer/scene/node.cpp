@@ -42,6 +42,17 @@ Node &Node::add_child(std::unique_ptr<Node> child) {
     return added;
 }
 
+void Node::add_prefix(const std::string &prefix) {
+    if (graph_ != nullptr) {
+        throw run_error("'" + name_ + "' is in a graph, which knows it by its name");
+    }
+    visit_subtree(*this, [&](Node &node) {
+        if (!node.name_.empty()) {
+            node.name_.insert(0, prefix);
+        }
+    });
+}
+
 std::unique_ptr<Node> Node::remove_child(Node &child) {
     const auto found = std::find_if(
         children_.begin(), children_.end(),

@@ -31,6 +31,10 @@ class Node {
     /// Appends a child with its subtree. Throws `Error` if one of the names is taken in this graph.
     Node &add_child(std::unique_ptr<Node> child);
 
+    /// Puts text before the names of this node and of all below it, except of nodes without a name.
+    /// The node must be in no graph.
+    void add_prefix(const std::string &prefix);
+
     /// Removes a child from the graph, frees its records in the stores and returns it to the
     /// caller.
     std::unique_ptr<Node> remove_child(Node &child);

@@ -42,15 +42,24 @@ std::vector<double> parse_numbers(const std::string &text, size_t count) {
 
 struct ToText {
     std::string operator()(bool value) const { return value ? "true" : "false"; }
-    std::string operator()(double value) const { return fmt::format("{}", value); }
+    /// Values that are floats have the digits of a float: 0.6 instead of 0.6000000238418579.
+    std::string operator()(double value) const {
+        const auto single = static_cast<float>(value);
+        return static_cast<double>(single) == value ? fmt::format("{}", single)
+                                                    : fmt::format("{}", value);
+    }
     template <int size>
     std::string operator()(const Eigen::Matrix<double, size, 1> &v) const {
-        return fmt::format("[{}]", fmt::join(v.data(), v.data() + size, ", "));
+        std::string text;
+        for (int i = 0; i < size; ++i) {
+            text += (i > 0 ? ", " : "") + (*this)(v[i]);
+        }
+        return "[" + text + "]";
     }
     std::string operator()(const Eigen::Matrix4d &m) const {
         std::vector<std::string> rows;
         for (int i = 0; i < 4; ++i) {
-            rows.push_back(fmt::format("[{}, {}, {}, {}]", m(i, 0), m(i, 1), m(i, 2), m(i, 3)));
+            rows.push_back((*this)(Eigen::Vector4d(m.row(i))));
         }
         return fmt::format("[{}]", fmt::join(rows, ", "));
     }
@@ -74,9 +83,9 @@ struct FromText {
     template <int size>
     bool operator()(Eigen::Matrix<double, size, 1> &value) const {
         std::vector<double> numbers = parse_numbers(text, size);
-        if (size == 2 && numbers.empty()) {
-            const std::vector<double> both = parse_numbers(text, 1);
-            numbers.assign(2 * both.size(), both.empty() ? 0 : both[0]);
+        if (size <= 3 && numbers.empty()) {
+            const std::vector<double> all = parse_numbers(text, 1);
+            numbers.assign(size * all.size(), all.empty() ? 0 : all[0]);
         }
         if (!numbers.empty()) {
             value = Eigen::Map<const Eigen::Matrix<double, size, 1>>(numbers.data());

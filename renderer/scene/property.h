@@ -37,9 +37,9 @@ struct Property {
     std::string text() const;
 
     /// Parses text and sets the value. Accepts `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; a matrix as
-    /// 16 numbers, row by row; plain text. One number sets both components of a pair. Throws
-    /// `Error` (bad input) if the text has another type, the value is illegal or the property is
-    /// read-only.
+    /// 16 numbers, row by row; plain text. One number sets all components of a pair or triple.
+    /// Throws `Error` (bad input) if the text has another type, the value is illegal or the
+    /// property is read-only.
     void set_text(const std::string &text) const;
 };
 

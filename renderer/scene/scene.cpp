@@ -5,10 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/json.h"
 #include "renderer/scene/graph.h"
 
 namespace rtrays {
@@ -251,12 +253,49 @@ void Scene::set_property(const std::string &address, const std::string &text) {
 }
 
 std::string Scene::describe() const {
+    std::string properties;
+    graph_->visit_properties(
+        [&](const std::string &owner, const Property &property) {
+            properties += fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name,
+                                      property.text(), property.type(), property.help);
+        },
+        [&](const std::string &node, const std::string &shared) {
+            properties += fmt::format("{} uses {}\n", node, shared);
+        });
     return fmt::format(
         "scene '{}': {} triangles in {} meshes, {} shapes, {} materials, {} textures, {} lights, "
         "{} cameras, film {} x {}\n{}",
         name_, meshes().triangle.size(), meshes().name.size(), arrays().shapes.name.size(),
         materials().name.size(), arrays().textures.name.size(), lights().name.size(),
-        cameras().name.size(), film_width_, film_height_, graph_->list_properties());
+        cameras().name.size(), film_width_, film_height_, properties);
+}
+
+std::string Scene::describe_json() const {
+    Json properties = Json::array(), uses = Json::array();
+    graph_->visit_properties(
+        [&](const std::string &owner, const Property &property) {
+            properties.push_back({{"address", owner + "." + property.name},
+                                  {"value", property.text()},
+                                  {"type", property_type(property.get())},
+                                  {"choices", property.choices},
+                                  {"read_only", property.set == nullptr},
+                                  {"help", property.help}});
+        },
+        [&](const std::string &node, const std::string &shared) {
+            uses.push_back({{"node", node}, {"object", shared}});
+        });
+    const Json document = {{"name", name_},
+                           {"film", {film_width_, film_height_}},
+                           {"triangles", meshes().triangle.size()},
+                           {"meshes", meshes().name.size()},
+                           {"shapes", arrays().shapes.name.size()},
+                           {"materials", materials().name.size()},
+                           {"textures", arrays().textures.name.size()},
+                           {"lights", lights().name.size()},
+                           {"cameras", cameras().name},
+                           {"properties", properties},
+                           {"uses", uses}};
+    return document.dump(2) + "\n";
 }
 
 void Scene::update(double time) {

@@ -63,8 +63,10 @@ class Scene {
     void set_property(const std::string &address, const std::string &text);
 
     /// Returns the text of `--print-scene`: the numbers of objects, then every property with its
-    /// value.
+    /// value, type and meaning, and the shared objects of every node.
     std::string describe() const;
+    /// Returns the same as a JSON document.
+    std::string describe_json() const;
 
     /// Updates the arrays to scene time `time` (seconds); only dirty records are rewritten. Throws
     /// `Error` (bad input) naming what is wrong with the scene.

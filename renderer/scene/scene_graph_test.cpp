@@ -181,13 +181,35 @@ TEST(Properties, AreListedReadAndSetByName) {
               translation({3, 2, 1}));
     EXPECT_FALSE(lamp.attributes().get<VisibilityAttribute>().visible);
 
-    const std::string list = graph.list_properties();
-    for (const char *line : {"lamp.radiance = [7, 8, 9]  # three numbers",
-                             "materials.white.reflectance = [0.1, 0.2, 0.3]",
-                             "lamp.fov_axis = y  # one of: x, y, smaller, larger",
-                             "lamp.visible = false  # boolean", "lamp.triangles = 2  # number"}) {
-        EXPECT_NE(list.find(line), std::string::npos) << line << "\nin\n" << list;
-    }
+    graph.set_property("lamp.radiance", "0.3");
+    EXPECT_EQ(light->radiance(), Vector3d(0.3, 0.3, 0.3));
+
+    std::map<std::string, std::string> properties;
+    std::vector<std::string> uses;
+    graph.visit_properties(
+        [&](const std::string &owner, const Property &property) {
+            const bool is_new =
+                properties.emplace(owner + "." + property.name, property.text()).second;
+            EXPECT_TRUE(is_new) << owner << "." << property.name << " is listed twice";
+        },
+        [&](const std::string &of, const std::string &shared) {
+            uses.push_back(of + " " + shared);
+        });
+    EXPECT_EQ(properties.at("lamp.radiance"), "[0.3, 0.3, 0.3]");
+    EXPECT_EQ(properties.at("materials.white.reflectance"), "[0.1, 0.2, 0.3]");
+    EXPECT_EQ(properties.at("lamp.fov_axis"), "y");
+    EXPECT_EQ(properties.at("lamp.visible"), "false");
+    EXPECT_EQ(properties.at("lamp.triangles"), "2");
+    EXPECT_EQ(properties.count("lamp.reflectance"), 0u) << "of a shared material";
+    EXPECT_EQ(uses, std::vector<std::string>{"lamp materials.white"});
+}
+
+TEST(Properties, FloatsAreWrittenWithTheirOwnDigits) {
+    EXPECT_EQ(property_text(static_cast<double>(0.6f)), "0.6");
+    EXPECT_EQ(property_text(0.6), "0.6");
+    EXPECT_EQ(property_text(0.1234567890123), "0.1234567890123");
+    EXPECT_EQ(property_text(Eigen::Vector3d(0.25, static_cast<double>(1e-20f), -3)),
+              "[0.25, 1e-20, -3]");
 }
 
 TEST(Properties, ErrorsNameAddressAndAlternatives) {

@@ -11,6 +11,7 @@
 #include "renderer/base/image.h"
 #include "renderer/base/json.h"
 #include "renderer/import/json/scene_json.h"
+#include "renderer/import/load_scene.h"
 #include "renderer/scene/cores/composite.h"
 #include "renderer/scene/cores/metals.h"
 #include "renderer/testing/scene_builder.h"
@@ -123,10 +124,20 @@ TEST_F(SceneFormat, EveryExampleIsReadAndSerialized) {
     size_t properties = 0;
     const std::vector<Json> blocks = examples();
     EXPECT_GE(blocks.size(), 7u);
-    for (const Json &block : blocks) {
+    for (Json block : blocks) {
+        if (block.contains("base")) {
+            const std::string folder = std::string(RTRAYS_SCENES) + "/../docs/";
+            block["base"] = folder + block.at("base").get<std::string>();
+            const std::string overlay = testing::TempDir() + "example_overlay.json";
+            write_file(overlay, block.dump(2));
+            expect_consistent(load_scene(overlay).graph());
+            continue;
+        }
         const std::string text = completed(block).dump(2);
         SCOPED_TRACE(text);
-        Scene scene = parse_scene_json(text, "example", "example", testing::TempDir());
+        Scene scene = parse_scene_json(
+            text, "example", "example", testing::TempDir(),
+            {[](const std::filesystem::path &path) { return load_scene(path.string()); }, false});
         expect_consistent(scene.graph());
         const std::string list = scene.describe();
         properties += static_cast<size_t>(std::count(list.begin(), list.end(), '\n'));

@@ -30,8 +30,9 @@ namespace {
 /// schema cannot express.
 class SceneReader {
   public:
-    SceneReader(const Json &document, SceneSource source, Scene &scene)
-        : document_(document), source_(std::move(source)), scene_(scene) {}
+    SceneReader(const Json &document, SceneSource source, const SceneJsonOptions &options,
+                Scene &scene)
+        : document_(document), source_(std::move(source)), options_(options), scene_(scene) {}
 
     void read() {
         const Json &film = document_.at("film");
@@ -63,12 +64,13 @@ class SceneReader {
             scene_.update(0);
             scene_.recentre();
             const std::vector<std::string> &cameras = scene_.cameras().name;
-            if (cameras.empty()) {
-                throw input_error("the scene has no camera; add a node with a \"camera\"");
-            }
             if (document_.contains("camera")) {
                 scene_.set_active_camera(document_.at("camera"));
-            } else if (cameras.size() > 1) {
+            } else if (own_cameras_.size() == 1) {
+                scene_.set_active_camera(own_cameras_.front());
+            } else if (!options_.is_part && cameras.empty()) {
+                throw input_error("the scene has no camera; add a node with a \"camera\"");
+            } else if (!options_.is_part && cameras.size() > 1) {
                 throw input_error(
                     fmt::format("the scene has several cameras; select one by \"camera\": {}",
                                 fmt::join(cameras, ", ")));
@@ -177,15 +179,39 @@ class SceneReader {
                                  : read_geometry(v, name, source_, at);
         });
         with("light", [&](const Json &v, const std::string &at) { return light(v, name, at); });
-        with("camera", [&](const Json &v, const std::string &at) { return camera(v, name, at); });
+        with("camera", [&](const Json &v, const std::string &at) {
+            own_cameras_.push_back(name);
+            return camera(v, name, at);
+        });
+        if (value.contains("import")) {
+            read_import(value, path, node);
+        }
         if (value.contains("children")) {
             read_nodes(value.at("children"), path + "/children", node);
         }
     }
 
+    /// Puts all nodes and shared objects of another scene below a node.
+    void read_import(const Json &value, const std::string &path, Node &node) {
+        Scene part = source_.located(path + "/import", [&] {
+            if (!options_.load_import) {
+                throw input_error("imports are not supported here");
+            }
+            return options_.load_import(source_.file(value.at("import")));
+        });
+        for (const auto &[address, text] : property_texts(value.value("set", Json::object()))) {
+            const std::string at = (Json::json_pointer(path + "/set") / address).to_string();
+            source_.located(
+                at, [&, &address = address, &text = text] { part.set_property(address, text); });
+        }
+        source_.located(path, [&] { scene_.graph().absorb(part.graph(), node); });
+    }
+
     const Json &document_;
     SceneSource source_;
+    const SceneJsonOptions &options_;
     Scene &scene_;
+    std::vector<std::string> own_cameras_;  ///< of this file, not of imports
     TextureFiles files_;
     std::map<std::string, std::shared_ptr<Texture>> textures_;
     std::map<std::string, std::shared_ptr<MaterialCore>> materials_;
@@ -195,13 +221,14 @@ class SceneReader {
 }  // namespace
 
 Scene parse_scene_json(const std::string &text, const std::string &source_name,
-                       const std::string &default_name, const std::filesystem::path &directory) {
+                       const std::string &default_name, const std::filesystem::path &directory,
+                       const SceneJsonOptions &options) {
     const Json document = parse_json(text, source_name);
     validate_json(document, std::string(embedded::scene_schemas().text("scene.schema.json")),
                   source_name, text);
     Scene scene;
     scene.set_name(document.value("name", default_name));
-    SceneReader reader(document, {text, source_name, directory}, scene);
+    SceneReader reader(document, {text, source_name, directory}, options, scene);
     reader.read();
     reader.finish();
     return scene;

@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{R"({"name": "a", "geometri": "tile"})",
                  "in.json:5: /nodes/1 (in 'a'): unknown key 'geometri'; allowed: animation, "
                  "camera, children, "
-                 "description, geometry, light, "},
+                 "description, geometry, import, light, "},
         BadScene{R"({"name": "a", "name": "b"})",
                  "in.json:5: /nodes/1/name (in 'a'): duplicate key 'name'"},
         BadScene{R"({"geometry": "tile"})", "in.json:5: /nodes/1: missing key 'name'"},

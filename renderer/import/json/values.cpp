@@ -49,6 +49,14 @@ bool contains(const std::vector<std::string> &names, const std::string &name) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> property_texts(const Json &set) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const auto &[address, value] : set.items()) {
+        texts.emplace_back(address, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return texts;
+}
+
 Eigen::Vector3d vector3(const Json &value) {
     return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
@@ -47,6 +48,9 @@ struct SceneSource {
 };
 
 Eigen::Vector3d vector3(const Json &value);
+
+/// Returns address and text of every property that a "set" of a scene file changes.
+std::vector<std::pair<std::string, std::string>> property_texts(const Json &set);
 
 /// Converts `value` to the type of the parameter. A single number sets all components of a vector
 /// of two or three. Throws `Error` (bad input) if the type does not match.

@@ -111,7 +111,7 @@ TEST(MitsubaParameters, AreDefinedByTheCaller) {
         expect_input_error("expected NAME=VALUE", [&] { parse_defines({text}); });
     }
     expect_input_error("--define requires a Mitsuba scene", [] {
-        load_scene("scene.json", true, {{"a", "1"}});
+        load_scene(RTRAYS_SCENES "/cornell_box/scene.json", true, {{"a", "1"}});
     });
 }
 

@@ -113,7 +113,7 @@ std::shared_ptr<MeshCore> load_mesh_file(const std::filesystem::path &path, cons
     }
 }
 
-Scene load_model(const std::filesystem::path &path, bool quiet) {
+Scene load_model(const std::filesystem::path &path, bool quiet, bool is_part) {
     Scene scene;
     scene.set_name(path.stem().string());
     ModelNames names;
@@ -127,10 +127,10 @@ Scene load_model(const std::filesystem::path &path, bool quiet) {
         if (scene.meshes().name.empty()) {
             throw input_error("the file has no triangles");
         }
-        if (scene.cameras().name.empty()) {
+        if (!is_part && scene.cameras().name.empty()) {
             add_camera(scene, names, notes);
         }
-        if (scene.lights().name.empty()) {
+        if (!is_part && scene.lights().name.empty()) {
             add_dome(scene, names, notes);
         }
         scene.update(0);

@@ -38,9 +38,9 @@ std::shared_ptr<MeshCore> load_mesh_file(const std::filesystem::path &path, cons
 /// their transforms, and its meshes, materials, lights and cameras. Meshes that the file shares are
 /// shared cores. Materials are converted as described in surface.h. The
 /// "material_index" of a PLY file is the index of a material in the MTL file of the same name.
-/// Notices report everything ignored or changed. A camera that sees the full model is added if the
-/// file has none, and a dome of radiance 1 if it has no light. Throws `Error` (bad input) naming
-/// the file and the fault.
-Scene load_model(const std::filesystem::path &path, bool quiet);
+/// Notices report everything ignored or changed. Unless it is part of another scene, a camera that
+/// sees the full model is added if the file has none, and a dome of radiance 1 if it has no light.
+/// Throws `Error` (bad input) naming the file and the fault.
+Scene load_model(const std::filesystem::path &path, bool quiet, bool is_part = false);
 
 }  // namespace rtrays
