@@ -14,8 +14,8 @@ rtrays_test(experiments_test HOST
 target_compile_definitions(experiments_test PRIVATE RTRAYS_EXPERIMENTS="${PROJECT_SOURCE_DIR}/experiments")
 
 # The gate: one test for each check of a scene.
-foreach(entry cornell_box.bitwise cornell_box.convergence cornell_box.planted_errors mirror_ring.convergence
-              mirror_ring.planted_errors)
+foreach(entry cornell_box.bitwise cornell_box.convergence cornell_box.agreement mirror_ring.convergence
+              mirror_ring.agreement)
     string(REPLACE "." ";" scene_and_check ${entry})
     list(GET scene_and_check 0 scene)
     list(GET scene_and_check 1 check)

@@ -9,9 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "experiments/harness/core/add_curve.h"
 #include "experiments/harness/core/compare.h"
 #include "experiments/harness/core/experiment.h"
 #include "experiments/harness/core/metrics.h"
+#include "experiments/harness/core/new_experiment.h"
 #include "experiments/harness/core/report.h"
 #include "experiments/harness/core/reproduce.h"
 #include "experiments/harness/kinds/kinds.h"
@@ -30,6 +32,8 @@ namespace fs = std::filesystem;
 struct Arguments {
     RunOptions run;
     ReproduceOptions reproduce;
+    NewExperimentOptions create;
+    AddCurveOptions add;
     fs::path image, reference;
     bool json = false;
     std::vector<fs::path> images;
@@ -51,8 +55,11 @@ void declare_run(CLI::App &app, RunOptions &options) {
     run->add_flag("--compile", options.compile,
                   "compile the kernels without measuring (curves and stability)");
     run->add_option("--check", options.check,
-                    "bitwise, convergence or planted_errors instead of all checks (gate)")
-        ->check(CLI::IsMember({"bitwise", "convergence", "planted_errors"}));
+                    "bitwise, convergence or agreement instead of all checks (gate)")
+        ->check(CLI::IsMember({"bitwise", "convergence", "agreement"}));
+    run->add_option(
+        "--save", options.save,
+        "folder for checks.json, checks.xml (JUnit) and images of failed checks (gate)");
     run->add_flag("--update-baseline", options.update_baseline,
                   "measure and replace the baseline without any check (gate)");
     run->add_flag("--quiet", options.quiet, "do not show progress");
@@ -74,11 +81,31 @@ void declare_reproduce(CLI::App &app, ReproduceOptions &options) {
     reproduce->add_flag("--quiet", options.quiet, "do not show progress within experiments");
 }
 
+void declare_new(CLI::App &app, NewExperimentOptions &options) {
+    auto *create = app.add_subcommand(
+        "new", "write an experiment for a scene of one's own, to run and to edit");
+    create->add_option("SCENE", options.scene, "scene or model file")->required();
+    create->add_option("-o,--output", options.file, "file to write; NAME.json by default");
+    create->add_flag("--gate", options.is_gate, "write a gate instead");
+    create->add_flag("--overwrite", options.overwrite, "replace the file if it exists");
+}
+
+void declare_add_curve(CLI::App &app, AddCurveOptions &options) {
+    auto *add = app.add_subcommand("add-curve",
+                                   "add finished images of another renderer to a run, as a curve");
+    add->add_option("DIR", options.run, "folder of a finished run of the kind curves")->required();
+    add->add_option("LIST", options.list, "CSV with the columns spp, seed, seconds and image (EXR)")
+        ->required();
+    add->add_option("--label", options.label, "name of the curve")->required();
+}
+
 void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
     app.set_version_flag("--version", program_version("rtrays-experiment"));
     declare_run(app, arguments.run);
     declare_reproduce(app, arguments.reproduce);
+    declare_new(app, arguments.create);
+    declare_add_curve(app, arguments.add);
 
     auto *compare = app.add_subcommand("compare", "print the error of image A against reference B");
     compare->add_option("A", arguments.image, "image (OpenEXR)")->required();
@@ -113,6 +140,14 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
     }
     if (app.got_subcommand("reproduce")) {
         return reproduce(arguments.reproduce, experiment_kinds());
+    }
+    if (app.got_subcommand("new")) {
+        fmt::print("{}", write_new_experiment(arguments.create));
+        return ExitCode::ok;
+    }
+    if (app.got_subcommand("add-curve")) {
+        fmt::print("{}\n", add_curve(arguments.add).string());
+        return ExitCode::ok;
     }
     if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));

@@ -5,6 +5,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import xml.etree.ElementTree
 
 from program_testing import EXPERIMENTS, PROGRAM, REFERENCES, ProgramTest, run_tests, shipped
 
@@ -221,6 +222,154 @@ class Program(ProgramTest):
         reported = self.call("report", out)
         self.assertEqual(reported.returncode, 0, reported.stderr)
         self.assertIn("| veach_mis/scene |", (out / "automatic.md").read_text())
+
+    def other_renderer(self, *arguments):
+        """Returns an experiment of path tracing and of a command: the renderer as another one."""
+        render = pathlib.Path(PROGRAM).with_name("rtrays-render")
+        script = f'{render} "$@" -q && echo rendering... && echo \'{{"seconds": 0.25}}\''
+        command = ["sh", "-c", script, "sh", "{scene}", "-o", "{output}", "--spp", "{spp}",
+                   "--seed", "{seed}", "--size", "{width}x{height}", *arguments]
+        return self.experiment(
+            profiles={"quick": {"size": [32, 32], "spp": [1, 2, 4], "seeds": 8}},
+            curves=[{"engine": "command", "label": "Mine 1.0", "command": command},
+                    {"algorithm": "path_tracing"}])
+
+    def test_another_renderer_is_a_curve(self):
+        out = self.folder / "out"
+        done = self.call("run", self.other_renderer(), "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        other, own = json.loads((out / "run.json").read_text())["curves"]
+        self.assertEqual((other["id"], other["engine"]), ("command.mine_1_0", "Mine 1.0"))
+        self.assertTrue(other["agreement"]["agrees"])
+        mse = []
+        for point in other["points"]:
+            for repetition in point["repetitions"]:
+                self.assertEqual(repetition["seconds_wall"], 0.25)
+                mse.append(repetition["mse"])
+        self.assertEqual(len(set(mse)), len(mse))  # no image has the samples of another one
+        for point, same in zip(other["points"], own["points"], strict=True):
+            self.assertAlmostEqual(point["mse"] / same["mse"], 1, delta=0.5)
+        reported = self.call("report", out)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        page = (out / "report.md").read_text()
+        self.assertIn("| Mine 1.0 | 4 |", page)
+        self.assertIn("equal wall time", page)
+        self.assertNotIn("equal device time", page)
+
+    def test_finished_images_become_a_curve(self):
+        """The images of the run's own curve have the errors of that curve."""
+        out, render = self.folder / "out", pathlib.Path(PROGRAM).with_name("rtrays-render")
+        done = self.call("run", self.experiment(
+            profiles={"quick": {"size": [32, 32], "spp": [1, 2, 4], "seeds": 8}},
+            curves=[{"algorithm": "path_tracing"}]), "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = ["spp,seed,seconds,image"]
+        for seed in range(1, 9):
+            for spp in (1, 2, 4):
+                image = f"{seed}.{spp}.exr"
+                subprocess.run(
+                    [render, EXPERIMENTS.parent / "scenes/cornell_box/scene.json", "-q", "-o",
+                     self.folder / image, "--seed", str(seed), "--spp", str(spp), "--size", "32x32",
+                     "--set", "integrator.sampler=independent"], check=True)
+                lines.append(f"{spp},{seed},{0.5 * spp},{image}")
+        images = self.folder / "images.csv"
+        images.write_text("\n".join(lines) + "\n")
+        for _ in range(2):  # the second time replaces the curve
+            added = self.call("add-curve", out, images, "--label", "Again 1.0")
+            self.assertEqual(added.returncode, 0, added.stderr)
+        curve, own = json.loads((out / "run.json").read_text())["curves"]
+        self.assertEqual((curve["id"], curve["label"]), ("added.again_1_0", "Again 1.0"))
+        for point, same in zip(curve["points"], own["points"], strict=True):
+            self.assertEqual(point["seconds_wall"], 0.5 * point["spp"])
+            self.assertAlmostEqual(point["mse"] / same["mse"], 1, 5)
+        self.assertEqual(self.call("report", out).returncode, 0)
+        for text, broken in (
+                ("expected the columns", ["seed,spp,seconds,image", *lines[1:]]),
+                ("7 seeds; at least 8", [line for line in lines if ",8," not in line]),
+                ("other sample counts", lines[:-1]),
+                ("a second image of seed 1 at 1 spp", [*lines, lines[1]]),
+                ("expected a positive number, got '-1'", [*lines, "8,1,-1,1.1.exr"]),
+                ("nowhere.exr", [line.replace("1.1.exr", "nowhere.exr") for line in lines])):
+            images.write_text("\n".join(broken) + "\n")
+            self.refused(2, text, "add-curve", out, images, "--label", "x")
+
+    def test_new_experiment_is_run_by_what_its_messages_say(self):
+        scene = EXPERIMENTS.parent / "scenes/cornell_box/scene.json"
+        done = self.call("new", scene, "-o", "mine/box.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.refused(2, "--overwrite", "new", scene, "-o", "mine/box.json")
+        path = self.folder / "mine/box.json"
+        experiment = json.loads(path.read_text())
+        experiment["profiles"]["quick"]["size"] = [32, 32]
+        path.write_text(json.dumps(experiment))
+        command = ["run", "mine/box.json", "--quiet"]
+        missing = self.refused(4, "does not exist", *command).stderr
+        script = "\n".join(line for line in missing.splitlines() if line.startswith("  "))
+        self.assertEqual(script.count("--size 32x32"), 2)
+        script = script.replace("rtrays-reference", str(
+            pathlib.Path(PROGRAM).with_name("rtrays-reference")))
+        subprocess.run(["sh", "-e", "-c", script], cwd=self.folder, check=True, capture_output=True)
+        done = self.call(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        reported = self.call("report", "cornell_box.quick")
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        page = (self.folder / "cornell_box.quick/report.md").read_text()
+        self.assertIn("truncated BDPT, Sobol points", page)
+        self.assertNotIn("thesis", page)
+
+    def test_another_renderer_that_fails(self):
+        done = self.call(
+            "run", self.other_renderer("--spq"), "--out", self.folder / "out", "--quiet")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("'Mine 1.0' ended with exit code 2: sh -c", done.stderr)
+        self.assertFalse((self.folder / "out/run.json").exists())
+
+    def test_gate_of_one_scene(self):
+        """A gate with a single check: a planted error that nothing catches fails it."""
+        gate = json.loads(shipped("gate_cornell_box").read_text())
+        for key in ("bitwise", "convergence", "baseline"):
+            del gate[key]
+        harmless = {"name": "nothing <much>", "algorithm": "path_tracing", "settings": {},
+                    "file": "kernels/light/area_light.h", "search": "sample.pdf_a = emitter.pdf_a;",
+                    "replacement": "sample.pdf_a = 1.0f * emitter.pdf_a;"}
+        gate.update(scene=str(EXPERIMENTS.parent / "scenes/cornell_box/scene.json"),
+                    reference={"folder": str(REFERENCES), "engine": "embree"}, size=[16, 16],
+                    curves=[{"algorithm": "path_tracing"}],
+                    agreement={"spp": 64, "planted_errors": [harmless]})
+        path, saved = self.folder / "gate.json", self.folder / "saved"
+        path.write_text(json.dumps(gate))
+        done = self.call("run", path, "--quiet", "--save", saved)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        lines = done.stdout.splitlines()
+        self.assertRegex(lines[0], "^ok   path_tracing.mis: agrees with the reference")
+        self.assertRegex(lines[1], "^FAIL planted 'nothing <much>' in path_tracing was not caught")
+        self.assertEqual(lines[-1], "1 of 2 checks failed")
+        self.assertEqual(
+            [each["passed"] for each in json.loads((saved / "checks.json").read_text())["checks"]],
+            [True, False])
+        suite = xml.etree.ElementTree.parse(saved / "checks.xml").getroot()
+        self.assertEqual((suite.get("tests"), suite.get("failures")), ("2", "1"))
+        self.assertIn("'nothing <much>'", suite.find("testcase/failure").get("message"))
+        self.refused(2, 'has no checks "bitwise"', "run", path, "--check", "bitwise")
+        self.refused(2, "convergence", "run", path, "--update-baseline")
+
+    def test_gate_shows_what_failed(self):
+        done = self.call("new", EXPERIMENTS.parent / "scenes/cornell_box/scene.json", "--gate")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        gate = json.loads((self.folder / "cornell_box.json").read_text())
+        gate.update(reference={"folder": str(REFERENCES), "engine": "embree"}, size=[32, 32],
+                    agreement={"spp": 64},
+                    curves=[{"algorithm": "path_tracing",
+                             "settings": {"integrator.max_depth": 2}}])
+        path, saved = self.folder / "cornell_box.json", self.folder / "saved"
+        path.write_text(json.dumps(gate))
+        done = self.call("run", path, "--quiet", "--save", saved)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        (check,) = json.loads((saved / "checks.json").read_text())["checks"]
+        self.assertEqual(
+            check["images"], ["path_tracing.mis,max_depth=2.exr", "reference.exr"])
+        for image in check["images"]:
+            self.assertTrue((saved / image).exists())
 
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "embedded/experiment_schemas.h"
@@ -49,6 +50,11 @@ const Json &DescriptionFile::profile(const std::string &name) const {
     return profiles.at(name);
 }
 
+std::string DescriptionFile::default_profile() const {
+    const Json &profiles = json.at("profiles");
+    return profiles.size() == 1 ? profiles.begin().key() : "quick";
+}
+
 std::string DescriptionFile::of_profile(const std::string &name) const {
     Json alone = json;
     alone["profiles"] = {{name, profile(name)}};
@@ -72,6 +78,51 @@ DescriptionFile load_description(const std::filesystem::path &path, const std::s
     return file;
 }
 
+namespace {
+
+/// Reads another renderer. Throws `Error` (bad input) for members that do not belong together.
+OtherRenderer parse_other_renderer(const Json &curve, const std::string &location) {
+    OtherRenderer other;
+    curve.at("engine").get_to(other.engine);
+    const auto require = [&](bool fits, const char *expected) {
+        if (!fits) {
+            throw input_error(fmt::format("{}: {}", location, expected));
+        }
+    };
+    const bool is_mitsuba = other.engine == "mitsuba", is_command = other.engine == "command";
+    require(
+        !curve.contains("algorithm") && !curve.contains("settings"),
+        "\"algorithm\" and \"settings\" are of this renderer; a curve with \"engine\" has none");
+    require(is_mitsuba || !(curve.contains("variant") || curve.contains("roulette_start")),
+            "\"variant\" and \"roulette_start\" need \"engine\": \"mitsuba\"");
+    require(is_command == curve.contains("command"),
+            "expected \"command\" together with \"engine\": \"command\"");
+    require(!is_command || curve.contains("label"), "a command needs a \"label\", which names it");
+    if (is_mitsuba) {
+        other.variant = curve.value("variant", "llvm_ad_rgb");
+        other.roulette_start = curve.value("roulette_start", 5u);  // Mitsuba's default
+    }
+    other.command = curve.value("command", std::vector<std::string>());
+    return other;
+}
+
+CurveDescription parse_curve(const Json &curve, const std::string &location) {
+    CurveDescription description;
+    description.label = curve.value("label", "");
+    if (curve.contains("engine")) {
+        description.other = parse_other_renderer(curve, location);
+    } else if (curve.contains("algorithm")) {
+        description.settings = parse_render_settings(curve);
+    } else {
+        throw input_error(fmt::format(
+            "{}: expected an \"algorithm\" of this renderer or the \"engine\" of another one",
+            location));
+    }
+    return description;
+}
+
+}  // namespace
+
 void read_measured_scene(const DescriptionFile &file, const Json &size, MeasuredScene &scene) {
     scene.scene = file.resolve(file.json.at("scene"));
     scene.reference_folder = file.resolve(file.json.at("reference").at("folder"));
@@ -79,13 +130,15 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
     size.at(0).get_to(scene.width);
     size.at(1).get_to(scene.height);
     std::set<std::string> ids;
-    for (const Json &curve : file.json.at("curves")) {
-        scene.curves.push_back({parse_render_settings(curve)});
+    const Json &curves = file.json.at("curves");
+    for (size_t i = 0; i < curves.size(); ++i) {
+        const std::string location = file.location(fmt::format("/curves/{}", i));
+        scene.curves.push_back(parse_curve(curves.at(i), location));
         if (const std::string id = scene.curves.back().id(); !ids.insert(id).second) {
             throw input_error(
-                fmt::format("{}: two curves have the id '{}'; change the algorithm or the settings "
-                            "of one",
-                            file.location("/curves"), id));
+                fmt::format("{}: two curves have the id '{}'; change the algorithm, the settings "
+                            "or the renderer of one",
+                            location, id));
         }
     }
 }
@@ -99,7 +152,22 @@ void require_increasing(const std::vector<uint64_t> &spp, const std::string &loc
     }
 }
 
+std::string file_name_of(const std::string &text) {
+    std::string name;
+    for (const char c : text) {
+        const auto letter = static_cast<unsigned char>(c);
+        name += std::isalnum(letter) != 0 ? static_cast<char>(std::tolower(letter)) : '_';
+    }
+    return name;
+}
+
 std::string CurveDescription::id() const {
+    if (other) {
+        return other->engine == "mitsuba"
+                   ? fmt::format("mitsuba.{},roulette_start={}", other->variant,
+                                 other->roulette_start)
+                   : other->engine + (other->engine == "command" ? "." + file_name_of(label) : "");
+    }
     std::string id = fmt::format("{}.{}", settings.algorithm->name,
                                  name_in(path_strategies, settings.strategies));
     const std::string root = "integrator.";

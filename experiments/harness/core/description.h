@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,28 @@
 
 namespace rtrays {
 
-/// A curve: an algorithm with its settings. `spp`, `early_images` and `seeds` are set for
-/// experiments only.
+/// Another renderer whose images are a curve.
+struct OtherRenderer {
+    std::string engine;                  ///< "mitsuba", "cycles" or "command"
+    std::string variant;                 ///< of Mitsuba
+    uint32_t roulette_start = 0;         ///< scattering event from which Mitsuba's roulette acts
+    std::vector<std::string> command{};  ///< of "command"; see other_renderer.h
+};
+
+/// A curve: an algorithm with its settings, or another renderer. `spp`, `early_images` and `seeds`
+/// are set for experiments only.
 struct CurveDescription {
     RenderSettings settings;         ///< size and seed are set by the runner
     std::vector<uint64_t> spp = {};  ///< strictly increasing
     /// Sample counts at which the first seed's image is kept.
     std::vector<uint64_t> early_images = {};
-    uint32_t seeds = 0;  ///< seeds are 1 .. seeds
+    uint32_t seeds = 0;                       ///< seeds are 1 .. seeds
+    std::string label = {};                   ///< name on pages; empty: from the id
+    std::optional<OtherRenderer> other = {};  ///< then the settings do not count
 
-    /// Returns the identifier that names the curve's files: "path_tracing.mis" or
-    /// "truncated_bdpt.mis,light_paths=auto".
+    /// Returns the identifier that names the curve's files: "path_tracing.mis",
+    /// "truncated_bdpt.mis,light_paths=auto", "mitsuba.llvm_ad_rgb,roulette_start=5", "cycles" or
+    /// "command.my_renderer".
     std::string id() const;
 };
 
@@ -49,6 +61,9 @@ struct DescriptionFile {
 
     /// Returns a profile. Throws `Error` (bad input) listing the profiles if the name is unknown.
     const Json &profile(const std::string &name) const;
+
+    /// Returns the profile of a run that names none: "quick", or the only one.
+    std::string default_profile() const;
 
     /// Returns the file's text with one profile alone. A run does not depend on other profiles.
     std::string of_profile(const std::string &name) const;
@@ -82,6 +97,9 @@ void require_increasing(const std::vector<uint64_t> &spp, const std::string &loc
 
 /// Applies settings by name: {"integrator.beta": 2, ...}. Throws as `parse_render_settings` does.
 void apply_settings(RenderSettings &settings, const Json &named);
+
+/// Returns a name of lower-case letters, digits and underscores, for files.
+std::string file_name_of(const std::string &text);
 
 /// Reads render settings from {"algorithm", "settings": {"integrator.beta": 2, ...}} with the names
 /// of `--set`. Settings that are not named keep the renderer's defaults. Throws `Error` (bad input)

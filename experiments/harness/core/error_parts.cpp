@@ -46,6 +46,20 @@ Image picture_of(const FirstHits &classes, int width, int height) {
     return image;
 }
 
+FirstHits first_hits_of(const Image &picture) {
+    FirstHits classes(picture.pixel_count());
+    const auto names = rgb_names();
+    for (size_t c = 0; c < names.size(); ++c) {
+        const auto &values = picture.channel(names[c]);
+        for (size_t i = 0; i < classes.size(); ++i) {
+            if (values[i] > 0) {
+                classes[i] = static_cast<FirstHit>(c);
+            }
+        }
+    }
+    return classes;
+}
+
 nlohmann::json to_json(const ByFirstHit &numbers) {
     nlohmann::json json;
     for (size_t i = 0; i < numbers.size(); ++i) {

@@ -30,6 +30,9 @@ ByFirstHit pixel_shares(const FirstHits &classes);
 /// and third class.
 Image picture_of(const FirstHits &classes, int width, int height);
 
+/// Returns the classes of such a picture.
+FirstHits first_hits_of(const Image &picture);
+
 /// Writes and reads one number for each class, by its name.
 nlohmann::json to_json(const ByFirstHit &numbers);
 ByFirstHit parse_by_first_hit(const nlohmann::json &json);

@@ -24,11 +24,12 @@ struct NamedOption {
     bool (*is_given)(const RunOptions &);
 };
 
-constexpr std::array<NamedOption, 5> named_options{{
+constexpr std::array<NamedOption, 6> named_options{{
     {Option::profile, "--profile", [](const RunOptions &o) { return !o.profile.empty(); }},
     {Option::out, "--out", [](const RunOptions &o) { return !o.out.empty(); }},
     {Option::compile, "--compile", [](const RunOptions &o) { return o.compile; }},
     {Option::check, "--check", [](const RunOptions &o) { return !o.check.empty(); }},
+    {Option::save, "--save", [](const RunOptions &o) { return !o.save.empty(); }},
     {Option::update_baseline, "--update-baseline",
      [](const RunOptions &o) { return o.update_baseline; }},
 }};
@@ -141,7 +142,7 @@ ExitCode run_experiment(const RunOptions &given, const std::vector<Kind> &kinds)
     require_options(*kind, given);
     RunOptions options = given;
     if (kind->has(Option::profile) && options.profile.empty()) {
-        options.profile = "quick";
+        options.profile = file.default_profile();
     }
     if (kind->has(Option::out) && options.out.empty()) {
         options.out = file.json.at("name").get<std::string>() + "." + options.profile;

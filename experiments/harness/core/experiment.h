@@ -20,10 +20,11 @@ namespace rtrays {
 /// Options of `rtrays-experiment run`.
 struct RunOptions {
     std::filesystem::path file;
-    std::string profile;           ///< "quick" if empty
+    std::string profile;           ///< empty: "quick", or the only one
     std::filesystem::path out;     ///< NAME.PROFILE in the working directory if empty
     std::string device;            ///< device name for `DeviceContext`
     std::string check;             ///< one check of a gate; all if empty
+    std::filesystem::path save;    ///< folder of a gate's results; not saved if empty
     bool update_baseline = false;  ///< measure the baseline of a gate instead of checking
     bool compile = false;          ///< compile the kernels only
     bool dry_run = false;          ///< check the inputs and print the plan only
@@ -31,7 +32,7 @@ struct RunOptions {
 };
 
 /// Options that not every kind has.
-enum class Option { profile, out, compile, check, update_baseline };
+enum class Option { profile, out, compile, check, save, update_baseline };
 
 /// Device and folders of one run.
 struct Bench {

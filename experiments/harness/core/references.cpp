@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 
 #include "reference/manifest.h"
 #include "renderer/base/error.h"
@@ -22,16 +25,45 @@ std::string file_name(const ReferenceRequest &request, size_t half) {
     return fmt::format("{}.{}.{}.exr", request.scene_name, request.engine, halves[half]);
 }
 
-Error missing(const ReferenceRequest &request, size_t half, const std::string &what) {
-    const std::string manifest = (request.folder / "manifest.json").string();
-    return {
-        ExitCode::reference_missing,
-        // The command renders the scene's own film size. Smaller films are averaged from it.
-        fmt::format(
-            "{}; render it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
-            "or render all references with: make references",
-            what, request.scene_path, (request.folder / file_name(request, half)).string(),
-            half + 1, manifest)};
+/// Whether the reference is one of those that `make references` renders.
+bool is_of_repository(const ReferenceRequest &request) {
+    return request.folder.parent_path().filename() == "results";
+}
+
+/// Returns a path as one word of a shell's command line.
+std::string in_shell(const fs::path &path) {
+    const std::string text = path.string();
+    const bool is_plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::strchr("_./-+,=:@%", c) != nullptr;
+    });
+    std::string quoted = "'";
+    for (const char c : text) {
+        quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return is_plain && !text.empty() ? text : quoted + "'";
+}
+
+/// Returns the error of missing halves, with the commands that render them. Smaller films are
+/// averaged from larger ones, so a reference of one's own has the size of the experiment.
+Error missing(const ReferenceRequest &request, const Json &listed, const std::string &what) {
+    const fs::path manifest = request.folder / "manifest.json";
+    std::string commands = fmt::format("  mkdir -p {}\n", in_shell(request.folder));
+    for (size_t half = 0; half < halves.size(); ++half) {
+        const fs::path path = request.folder / file_name(request, half);
+        if (!fs::exists(path) || !listed.contains(path.filename().string())) {
+            commands += fmt::format(
+                "  rtrays-reference {} -o {} --engine {} --spp 16384 --size {}x{} --seed {} "
+                "--manifest {}\n",
+                in_shell(request.scene_path), in_shell(path), request.engine, request.width,
+                request.height, half + 1, in_shell(manifest));
+        }
+    }
+    return {ExitCode::reference_missing,
+            fmt::format("{}; render it with:\n{}{}", what, commands,
+                        is_of_repository(request)
+                            ? "or render all references with: make references"
+                            : "fewer samples are enough for larger errors: the reference's own "
+                              "error should be a third of the smallest measured one")};
 }
 
 /// The manifest's entry of one half, checked against the request and the file.
@@ -39,10 +71,12 @@ Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t
     const std::string name = file_name(request, half);
     const fs::path path = request.folder / name;
     if (!fs::exists(path)) {
-        throw missing(request, half, fmt::format("the reference {} does not exist", path.string()));
+        throw missing(request, manifest.at("references"),
+                      fmt::format("the reference {} does not exist", path.string()));
     }
     if (!manifest.at("references").contains(name)) {
-        throw missing(request, half, fmt::format("{}: no entry in the manifest", path.string()));
+        throw missing(request, manifest.at("references"),
+                      fmt::format("{}: no entry in the manifest", path.string()));
     }
     const Json &entry = manifest.at("references").at(name);
     if (entry.at("scene_hash") != request.scene_hash) {
@@ -78,7 +112,8 @@ int reduction(const Image &stored, const ReferenceRequest &request) {
 StoredReference load_reference(const ReferenceRequest &request) {
     const fs::path manifest_path = request.folder / "manifest.json";
     if (!fs::exists(manifest_path)) {
-        throw missing(request, 0, fmt::format("{} does not exist", manifest_path.string()));
+        throw missing(request, Json::object(),
+                      fmt::format("{} does not exist", manifest_path.string()));
     }
     const Json manifest = reference::load_manifest(manifest_path);
     const Json entry_a = checked_entry(request, manifest, 0),

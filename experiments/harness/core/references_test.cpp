@@ -101,8 +101,19 @@ TEST_F(StoredReferences, ASmallerFilmIsAveraged) {
 
 TEST_F(StoredReferences, AMissingHalfNamesTheCommand) {
     EXPECT_EQ(error_code(request(), "rtrays-reference box.json"), ExitCode::reference_missing);
+    EXPECT_EQ(error_code(request(), "box.embree.a.exr"), ExitCode::reference_missing);
+    EXPECT_EQ(error_code(request(), "box.embree.b.exr"), ExitCode::reference_missing);
     store("a", 1);
-    EXPECT_EQ(error_code(request(), "box.embree.b.exr --spp"), ExitCode::reference_missing);
+    EXPECT_EQ(
+        error_code(request(), "box.embree.b.exr --engine embree --spp 16384 --size 8x8 --seed 2"),
+        ExitCode::reference_missing);
+}
+
+TEST_F(StoredReferences, CommandsQuoteWhatAShellWouldSplit) {
+    ReferenceRequest wanted = request();
+    wanted.scene_path = "my scenes/it's.json";
+    EXPECT_EQ(error_code(wanted, R"(rtrays-reference 'my scenes/it'\''s.json' -o )"),
+              ExitCode::reference_missing);
 }
 
 TEST_F(StoredReferences, WrongSceneSeedAndDamageAreRefused) {

@@ -47,17 +47,18 @@ Json describe_experiment(const CurvesDescription &experiment) {
 
 std::string plan_of(const CurvesDescription &experiment, const StoredReference &reference) {
     const double pixels = static_cast<double>(experiment.width) * experiment.height;
-    const double throughput = 2 * pixels * static_cast<double>(experiment.throughput.spp) *
-                              experiment.throughput.repetitions;
-    std::string plan =
-        fmt::format("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis,
-                    experiment.profile, experiment.width, experiment.height);
+    std::string plan = fmt::format("{}, profile {}: {}x{}\n", experiment.name, experiment.profile,
+                                   experiment.width, experiment.height);
     for (const auto &curve : experiment.curves) {
         plan += fmt::format("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(),
                             curve.spp.front(), curve.spp.back(), curve.seeds,
                             1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
     }
-    plan += fmt::format("  {:68} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
+    if (experiment.throughput) {
+        const double samples = 2 * pixels * static_cast<double>(experiment.throughput->spp) *
+                               experiment.throughput->repetitions;
+        plan += fmt::format("  {:68} {:8.1f} Msamples\n", "throughput, both sides", samples / 1e6);
+    }
     plan += fmt::format("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
                         reference.description.at("spp").get<uint64_t>(),
                         reference.description.at("engine").get<std::string>(),
@@ -100,7 +101,8 @@ Json describe_first_hits(const FirstHits &classes, const StoredReference &refere
 /// Measures renderer and reference in interleaved repetitions with the last curve's settings.
 Json run_throughput(const CurvesDescription &experiment, const Scene &scene, DeviceContext &device,
                     bool quiet) {
-    const RenderSettings settings = settings_of(experiment, experiment.curves.back());
+    const CurveDescription &curve = experiment.throughput->curve;
+    const RenderSettings settings = settings_of(experiment, curve);
     RenderSession session(scene, settings, device);
 
     ReferenceSettings reference_settings = reference_settings_of(experiment, scene);
@@ -109,7 +111,7 @@ Json run_throughput(const CurvesDescription &experiment, const Scene &scene, Dev
     reference_settings.max_depth = settings.max_depth;
     ReferenceRenderer reference(scene.arrays(), reference_settings);
 
-    const uint64_t spp = experiment.throughput.spp;
+    const uint64_t spp = experiment.throughput->spp;
     const auto contestant = [&](auto &renderer) {
         return [&renderer, spp, done = uint64_t{0}]() mutable {
             render_whole(renderer, done, done + spp);
@@ -121,7 +123,7 @@ Json run_throughput(const CurvesDescription &experiment, const Scene &scene, Dev
     second();
 
     ThroughputSettings rules;
-    rules.repetitions = experiment.throughput.repetitions;
+    rules.repetitions = experiment.throughput->repetitions;
     rules.samples = static_cast<double>(spp) * experiment.width * experiment.height;
     Progress progress(experiment.name + ": throughput", static_cast<uint64_t>(rules.repetitions),
                       "repetitions", quiet);
@@ -135,17 +137,13 @@ Json run_throughput(const CurvesDescription &experiment, const Scene &scene, Dev
         progress.update(static_cast<uint64_t>(done));
     });
     Json json = to_json(measured, rules);
-    json["curve"] = experiment.curves.back().id();
+    json["curve"] = curve.id();
     return json;
 }
 
 /// Measures one entry of "curves" and writes the curve's images.
-Json run_curve(const CurvesDescription &experiment, const CurveDescription &description,
-               LadderTask task, double noise_mse, const fs::path &out) {
-    task.settings = settings_of(experiment, description);
-    task.spp = description.spp;
-    task.early_images = description.early_images;
-    task.seeds = description.seeds;
+Json describe_curve(const CurveDescription &description, const LadderTask &task,
+                    const std::string &scene, double noise_mse, const fs::path &out) {
     const LadderResult ladder = render_ladders(task);
     const std::string image = "images/" + description.id() + ".exr";
     const Image mean = average_images(ladder.images);
@@ -153,12 +151,12 @@ Json run_curve(const CurvesDescription &experiment, const CurveDescription &desc
 
     const AgreementPolicy policy;
     Json curve = summarise_curve(ladder.repetitions, noise_mse);
-    curve.update(ladder.cost);
+    curve.update(ladder.description);
     curve["id"] = description.id();
-    curve["scene"] = task.scenes.scene().name();
-    curve["algorithm"] = description.settings.algorithm->name;
-    curve["strategies"] = name_in(path_strategies, description.settings.strategies);
-    curve["settings"] = image_settings(task.settings);
+    if (!description.label.empty()) {
+        curve["label"] = description.label;
+    }
+    curve["scene"] = scene;
     // Batches are tested even if the image has variance layers. With few samples a pixel's variance
     // misses the rarest paths, and a normal test would be too certain.
     const Agreement agreement = test_agreement(ladder.batches, task.reference, policy,
@@ -210,7 +208,9 @@ class Curves : public Experiment {
 
     void compile(DeviceContext &device) const override {
         for (const CurveDescription &curve : description_.curves) {
-            compile_kernels(scene_, settings_of(description_, curve), device);
+            if (!curve.other) {
+                compile_kernels(scene_, settings_of(description_, curve), device);
+            }
         }
     }
 
@@ -222,11 +222,15 @@ class Curves : public Experiment {
         const FirstHits first_hits =
             ReferenceRenderer(scene_.arrays(), reference_settings_of(description_, scene_))
                 .first_hits();
-        return {{"experiment", describe_experiment(description_)},
-                {"reference", description},
-                {"first_hits", describe_first_hits(first_hits, reference_, bench.out)},
-                {"curves", measure_curves(bench, first_hits)},
-                {"throughput", run_throughput(description_, scene_, bench.device, bench.quiet)}};
+        Json document = {{"experiment", describe_experiment(description_)},
+                         {"reference", description},
+                         {"first_hits", describe_first_hits(first_hits, reference_, bench.out)},
+                         {"curves", measure_curves(bench, first_hits)}};
+        if (description_.throughput) {
+            document["throughput"] =
+                run_throughput(description_, scene_, bench.device, bench.quiet);
+        }
+        return document;
     }
 
     bool is_whole(const Json &document, const fs::path &out) const override {
@@ -242,19 +246,26 @@ class Curves : public Experiment {
         Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
         SharedScenes scenes(scene_, bench.device);
-        const LadderTask task{scenes,
-                              RenderSettings(),
-                              {},
-                              0,
-                              {},
-                              reference_.reference.image,
-                              first_hits,
-                              bench.parts,
-                              [&](uint64_t spp) { progress.update(done += spp); }};
         Json curves = Json::array();
         for (const CurveDescription &curve : description_.curves) {
-            curves.push_back(
-                run_curve(description_, curve, task, reference_.reference.noise_mse, bench.out));
+            const RenderSettings settings = settings_of(description_, curve);
+            const auto make_source = [&] {
+                return curve.other ? other_source(curve, description_.scene, settings,
+                                                  bench.parts / "other_renderer")
+                                   : session_source(scenes, settings);
+            };
+            const LadderTask task{curve.id(),
+                                  make_source,
+                                  !curve.other && settings.sampler != Sampler::sobol,
+                                  curve.spp,
+                                  curve.seeds,
+                                  curve.early_images,
+                                  reference_.reference.image,
+                                  first_hits,
+                                  bench.parts,
+                                  [&](uint64_t spp) { progress.update(done += spp); }};
+            curves.push_back(describe_curve(curve, task, scene_.name(),
+                                            reference_.reference.noise_mse, bench.out));
         }
         return curves;
     }

@@ -82,18 +82,30 @@ CurvesDescription read_curves(const DescriptionFile &file, const std::string &pr
     const Json &chosen = file.profile(profile);
     CurvesDescription experiment;
     json.at("name").get_to(experiment.name);
-    json.at("title").get_to(experiment.title);
-    json.at("thesis").get_to(experiment.thesis);
-    json.at("claim").get_to(experiment.claim);
-    json.at("expected_slope").at("value").get_to(experiment.expected_slope);
-    json.at("expected_slope").at("tolerance").get_to(experiment.slope_tolerance);
+    experiment.title = json.value("title", experiment.name);
+    experiment.thesis = json.value("thesis", "none");
+    experiment.claim = json.value("claim", "");
+    if (json.contains("expected_slope")) {
+        json.at("expected_slope").at("value").get_to(experiment.expected_slope);
+        json.at("expected_slope").at("tolerance").get_to(experiment.slope_tolerance);
+    }
     experiment.expected_gain = json.value("expected_gain", Json());
     read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
     experiment.settings = chosen.value("settings", Json::object());
     read_ladders(file, "/profiles/" + profile, chosen, experiment.curves);
-    chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
-    chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
+    if (chosen.contains("throughput")) {
+        const Json &throughput = chosen.at("throughput");
+        const auto &curves = experiment.curves;
+        const auto last = std::find_if(curves.rbegin(), curves.rend(),
+                                       [](const auto &curve) { return !curve.other; });
+        if (last == curves.rend()) {
+            throw input_error(fmt::format(
+                "{}: the throughput is that of this renderer, which has no curve; remove it",
+                file.location("/profiles/" + profile + "/throughput")));
+        }
+        experiment.throughput = {*last, throughput.at("repetitions"), throughput.at("spp")};
+    }
     experiment.source = file.of_profile(profile);
     return experiment;
 }

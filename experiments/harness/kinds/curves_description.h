@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "experiments/harness/core/description.h"
@@ -14,6 +15,7 @@ namespace rtrays {
 constexpr uint64_t batches_per_seed = 4;
 
 struct ThroughputDescription {
+    CurveDescription curve;  ///< the last one of this renderer
     int repetitions = 0;
     uint64_t spp = 0;  ///< samples per pixel of one repetition
 };
@@ -21,12 +23,12 @@ struct ThroughputDescription {
 /// An experiment of curves, with one of its profiles.
 struct CurvesDescription : MeasuredScene {
     std::string name, title, thesis, claim;
-    double expected_slope = 0, slope_tolerance = 0;
+    double expected_slope = -0.5, slope_tolerance = 0.03;
     /// Gain over path tracing that the thesis states, {"algorithm", "samples", "time"}, or null.
     Json expected_gain;
     // The remaining members belong to the chosen profile.
     std::string profile;
-    ThroughputDescription throughput;
+    std::optional<ThroughputDescription> throughput;
     Json settings;       ///< {"integrator.beta": 2, ...}: applied to all curves
     std::string source;  ///< text of the file with the chosen profile alone
 };

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/harness/kinds/gate.h"
@@ -126,6 +128,43 @@ TEST(Description, ErrorsNameTheKey) {
     EXPECT_NE(error_of("{").find("broken_experiment.json:1"), std::string::npos);
 }
 
+TEST(Description, OtherRenderersAreCurves) {
+    const nlohmann::json good =
+        nlohmann::json::parse(read_file(shipped / "chapter4/cornell_diffuse.json"));
+    const auto with = [&](const std::string &curve) {
+        nlohmann::json experiment = good;
+        experiment["curves"].insert(experiment["curves"].begin(), nlohmann::json::parse(curve));
+        return experiment.dump();
+    };
+    const auto id = [&](const std::string &curve) {
+        const fs::path path = fs::path(testing::TempDir()) / "other_experiment.json";
+        write_file(path, with(curve));
+        return load_curves(path, "quick").curves.front().id();
+    };
+    EXPECT_EQ(id(R"({"engine": "mitsuba"})"), "mitsuba.llvm_ad_rgb,roulette_start=5");
+    EXPECT_EQ(id(R"({"engine": "mitsuba", "variant": "scalar_rgb", "roulette_start": 1})"),
+              "mitsuba.scalar_rgb,roulette_start=1");
+    EXPECT_EQ(id(R"({"engine": "cycles", "label": "Cycles"})"), "cycles");
+    EXPECT_EQ(id(R"({"engine": "command", "label": "My 2nd", "command": ["render"]})"),
+              "command.my_2nd");
+    for (const auto &[curve, text] : std::map<std::string, std::string>{
+             {R"({"label": "nothing"})", "/curves/0: expected an \"algorithm\""},
+             {R"({"engine": "tungsten"})", "engine"},
+             {R"({"engine": "cycles", "algorithm": "path_tracing"})", "has none"},
+             {R"({"engine": "cycles", "variant": "fast"})", "need \"engine\": \"mitsuba\""},
+             {R"({"engine": "command", "label": "mine"})", "expected \"command\""},
+             {R"({"engine": "cycles", "command": ["render"]})", "expected \"command\""},
+             {R"({"engine": "command", "command": ["render"]})", "\"label\""}}) {
+        EXPECT_NE(error_of(with(curve)).find(text), std::string::npos)
+            << curve << ": " << error_of(with(curve));
+    }
+    nlohmann::json alone = good;
+    alone["curves"] = nlohmann::json::parse(R"([{"engine": "cycles"}])");
+    EXPECT_NE(error_of(alone.dump()).find("quick/throughput: the throughput is that of this"),
+              std::string::npos)
+        << error_of(alone.dump());
+}
+
 TEST(Description, UnknownProfileListsTheProfiles) {
     try {
         load_curves(shipped / "chapter4/cornell_diffuse.json", "fast");
@@ -147,6 +186,34 @@ TEST(Description, ErrorsOfGatesNameTheKey) {
               std::string::npos);
 }
 
+TEST(Description, ChecksOfAGateAreOptional) {
+    nlohmann::json gate = nlohmann::json::parse(read_file(shipped / "gates/gate_cornell_box.json"));
+    for (const char *key : {"bitwise", "convergence", "baseline"}) {
+        gate.erase(key);
+    }
+    EXPECT_NE(error_of(gate.dump(), true).find("need \"convergence\""), std::string::npos)
+        << "an error that the slope finds";
+    gate["agreement"].erase("planted_errors");
+    EXPECT_EQ(error_of(gate.dump(), true), "no error");
+    gate.erase("agreement");
+    EXPECT_NE(error_of(gate.dump(), true).find("nothing to check"), std::string::npos);
+}
+
+TEST(Description, ErrorsOfAFileAreReportedTogether) {
+    nlohmann::json experiment =
+        nlohmann::json::parse(read_file(shipped / "chapter4/cornell_diffuse.json"));
+    experiment["profiles"]["quick"]["seed"] = 8;
+    experiment["reference"]["engine"] = "embre";
+    experiment["curves"][0]["labels"] = experiment["curves"][0]["name"] = "path tracing";
+    const std::string message = error_of(experiment.dump(2));
+    for (const char *text :
+         {"/profiles/quick", "unknown key 'seed'", "/reference/engine", "embree, mitsuba, cycles",
+          "unknown key 'labels'", "unknown key 'name'"}) {
+        EXPECT_NE(message.find(text), std::string::npos) << text << " in\n" << message;
+    }
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 3);
+}
+
 TEST(Description, ShippedClaimsFitTheirSchema) {
     EXPECT_FALSE(load_description(shipped / "claims.json", "claims.schema.json")
                      .json.at("sections")
@@ -157,8 +224,8 @@ TEST(Description, ShippedGateLoads) {
     const auto gate =
         read_gate(load_description(shipped / "gates/gate_cornell_box.json", "gate.schema.json"));
     EXPECT_EQ(gate.width, 64);
-    EXPECT_GE(gate.convergence.renders, 16);
-    EXPECT_EQ(gate.planted.errors.size(), 10u);
+    EXPECT_GE(gate.convergence->renders, 16);
+    EXPECT_EQ(gate.agreement->planted_errors.size(), 10u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "experiments/harness/kinds/gate.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -129,9 +130,9 @@ void measure_baseline(const GateBench &bench, const StoredReference &reference) 
                      {"size", {gate.width, gate.height}}};
     for (const auto &curve : gate.curves) {
         const auto first = measure_errors(bench, curve, reference.reference, first_stage_seed,
-                                          gate.convergence.renders);
+                                          gate.convergence->renders);
         const auto second = measure_errors(bench, curve, reference.reference, second_stage_seed,
-                                           gate.convergence.second_stage_renders);
+                                           gate.convergence->second_stage_renders);
         baseline["curves"][curve.id()] = {{"settings", image_settings(curve.settings)},
                                           {"first_stage", to_json(first)},
                                           {"second_stage", to_json(second)}};
@@ -144,31 +145,91 @@ void measure_baseline(const GateBench &bench, const StoredReference &reference) 
     fmt::print("wrote {}\n", gate.baseline.string());
 }
 
+/// Returns a text as it stands in an XML attribute.
+std::string in_xml(const std::string &text) {
+    std::string escaped;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                escaped += "&amp;";
+                break;
+            case '<':
+                escaped += "&lt;";
+                break;
+            case '>':
+                escaped += "&gt;";
+                break;
+            case '"':
+                escaped += "&quot;";
+                break;
+            default:
+                escaped += c;
+        }
+    }
+    return escaped;
+}
+
+/// Returns the rows of a gate as test cases of JUnit, which CI systems show.
+std::string junit_of(const std::string &name, const Json &rows, size_t failed) {
+    std::string text = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
+        in_xml(name), rows.size(), failed);
+    for (const Json &row : rows) {
+        const std::string check = in_xml(row.at("check").get<std::string>());
+        text += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\"", in_xml(name),
+                            row.at("group").get<std::string>(), check);
+        text += row.at("passed").get<bool>()
+                    ? "/>\n"
+                    : fmt::format("><failure message=\"{}\"/></testcase>\n", check);
+    }
+    return text + "</testsuite>\n";
+}
+
 class Gate : public Experiment {
   public:
     Gate(const DescriptionFile &file, const RunOptions &options)
         : gate_(read_gate(file)),
           scene_(load_scene(gate_.scene.string())),
-          check_(options.check.empty() ? "all" : options.check),
+          check_(options.check),
+          save_(options.save),
           updates_(options.update_baseline) {
-        if (updates_ || wants("convergence") || wants("planted_errors")) {
+        for (const auto &[check, is_there] :
+             {std::pair("bitwise", gate_.bitwise.has_value()),
+              std::pair("convergence", gate_.convergence.has_value()),
+              std::pair("agreement", gate_.agreement.has_value())}) {
+            if ((check_.empty() || check_ == check) && is_there && !updates_) {
+                checks_.emplace_back(check);
+            }
+        }
+        if (updates_ && !gate_.convergence) {
+            throw input_error(
+                fmt::format("{} has no \"convergence\", which a baseline is for", gate_.source));
+        }
+        if (!updates_ && checks_.empty()) {
+            throw input_error(fmt::format("{} has no checks \"{}\"", gate_.source, check_));
+        }
+        if (updates_ || wants("convergence") || wants("agreement")) {
             reference_ = load_reference(gate_, scene_);
         }
-        if (check_ == "bitwise" && !gate_.bitwise) {
-            throw input_error(fmt::format("{} has no checks \"bitwise\"", gate_.source));
+        if (wants("agreement")) {
+            require_plantable(gate_.agreement->planted_errors);
         }
-        if (!updates_ && wants("planted_errors")) {
-            require_plantable(gate_.planted.errors);
-        }
-        if (!updates_ && wants("convergence")) {
+        if (wants("convergence")) {
             baseline_ = load_baseline(gate_, scene_);
+        }
+        if (!save_.empty()) {
+            fs::create_directories(save_);
+            require_writable(save_ / "checks.json");
         }
     }
 
     std::string plan() const override {
         return fmt::format("{}: {}x{}, {} curves, {} planted errors, {}\n", gate_.name, gate_.width,
-                           gate_.height, gate_.curves.size(), gate_.planted.errors.size(),
-                           updates_ ? "update of the baseline" : "checks: " + check_);
+                           gate_.height, gate_.curves.size(),
+                           gate_.agreement ? gate_.agreement->planted_errors.size() : 0,
+                           updates_ ? "update of the baseline"
+                                    : fmt::format("checks: {}", fmt::join(checks_, ", ")));
     }
 
     Json measure(const Bench &bench) const override {
@@ -179,20 +240,22 @@ class Gate : public Experiment {
             return {{"rows", Json::array()}};
         }
         Json rows = Json::array();
-        const auto report = [&](const std::vector<CheckLine> &lines) {
-            for (const CheckLine &line : lines) {
+        for (const std::string &check : checks_) {
+            for (const CheckLine &line : lines_of(check, gate_bench)) {
                 fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
-                rows.push_back({{"check", line.text}, {"passed", line.passed}});
+                Json row = {{"group", check}, {"check", line.text}, {"passed", line.passed}};
+                for (const auto &[name, image] : line.images) {
+                    if (!save_.empty()) {
+                        const std::string file = name + ".exr";
+                        write_exr(image, save_ / file);
+                        row["images"].push_back(file);
+                    }
+                }
+                rows.push_back(std::move(row));
             }
-        };
-        if (gate_.bitwise && wants("bitwise")) {
-            report(check_bitwise(gate_bench));
         }
-        if (wants("convergence")) {
-            report(check_all_curves(gate_bench, reference_, baseline_));
-        }
-        if (wants("planted_errors")) {
-            report(check_planted_errors(gate_bench, reference_.reference));
+        if (!save_.empty()) {
+            save(rows);
         }
         return {{"rows", rows}};
     }
@@ -202,11 +265,36 @@ class Gate : public Experiment {
     }
 
   private:
-    bool wants(const char *check) const { return check_ == "all" || check_ == check; }
+    bool wants(const std::string &check) const {
+        return std::find(checks_.begin(), checks_.end(), check) != checks_.end();
+    }
+
+    std::vector<CheckLine> lines_of(const std::string &check, const GateBench &bench) const {
+        if (check == "bitwise") {
+            return check_bitwise(bench);
+        }
+        return check == "convergence" ? check_all_curves(bench, reference_, baseline_)
+                                      : check_agreement(bench, reference_.reference);
+    }
+
+    /// Writes all checks as JSON and as XML.
+    void save(const Json &rows) const {
+        const auto failed = static_cast<size_t>(std::count_if(
+            rows.begin(), rows.end(), [](const Json &row) { return !row.at("passed"); }));
+        const Json document = {{"gate", gate_.name},
+                               {"commit", version()},
+                               {"passed", rows.size() - failed},
+                               {"failed", failed},
+                               {"checks", rows}};
+        write_file(save_ / "checks.json", document.dump(1) + "\n");
+        write_file(save_ / "checks.xml", junit_of(gate_.name, rows, failed));
+    }
 
     GateDescription gate_;
     Scene scene_;
-    std::string check_;
+    std::string check_;                ///< the only one wanted; empty: all
+    std::vector<std::string> checks_;  ///< those that run
+    fs::path save_;
     bool updates_;
     StoredReference reference_;
     Json baseline_;

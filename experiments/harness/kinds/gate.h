@@ -25,14 +25,16 @@ struct GateDescription : MeasuredScene {
         std::vector<uint32_t> group_sizes, stream_capacities;
     };
     std::optional<Bitwise> bitwise;
-    struct {
+    struct Convergence {
         std::vector<uint64_t> spp;  ///< strictly increasing
         int renders = 0, second_stage_renders = 0;
-    } convergence;
-    struct {
+    };
+    std::optional<Convergence> convergence;
+    struct AgreementCheck {
         uint64_t spp = 0;
-        std::vector<PlantedError> errors;
-    } planted;
+        std::vector<PlantedError> planted_errors;
+    };
+    std::optional<AgreementCheck> agreement;
 };
 
 /// Reads a gate file that fits its schema. Throws `Error` (bad input) naming file, key and
@@ -40,7 +42,8 @@ struct GateDescription : MeasuredScene {
 GateDescription read_gate(const DescriptionFile &file);
 
 /// Makes an experiment that runs the chosen checks, or measures the baseline. It prints one line
-/// for each check and stores no document. Throws `Error` (reference missing) if the reference or
+/// for each check. `RunOptions::save` is a folder for "checks.json", "checks.xml" (JUnit) and the
+/// images of failed checks. Throws `Error` (reference missing) if the reference or
 /// the baseline does not exist, and `Error` (bad input) if an error cannot be planted.
 std::unique_ptr<Experiment> make_gate(const DescriptionFile &file, const RunOptions &options);
 

@@ -78,8 +78,12 @@ class BitwiseCheck {
 
     void compare(const std::string &what, const Image &image) {
         const bool same = same_bits(original_, image);
-        lines_.push_back(
-            {fmt::format("{}, {}: {} bits", curve_.id(), what, same ? "same" : "different"), same});
+        CheckLine line{
+            fmt::format("{}, {}: {} bits", curve_.id(), what, same ? "same" : "different"), same};
+        if (!same) {
+            line.images = {{curve_.id(), original_}, {curve_.id() + ", " + what, image}};
+        }
+        lines_.push_back(std::move(line));
     }
 
     void compare_merges() {
@@ -187,16 +191,16 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
     for (int k = 0; k < renders; ++k) {
         session.restart(first_seed + static_cast<uint32_t>(k));
         uint64_t done = 0;
-        for (uint64_t spp : bench.gate.convergence.spp) {
+        for (uint64_t spp : bench.gate.convergence->spp) {
             render_whole(session, done, spp);
             done = spp;
             const ErrorMetrics error = compute_metrics(session.develop(), reference.image);
             if (noise_dominates(error.mse, reference.noise_mse)) {
                 throw run_error(
                     fmt::format("{} at {} spp: the reference's own noise exceeds 10 % of the mean "
-                                "squared error; render a reference with more samples (make "
-                                "references)",
-                                curve.id(), spp));
+                                "squared error; the reference needs at least {:.1f} times the "
+                                "samples",
+                                curve.id(), spp, 10 * reference.noise_mse / error.mse));
             }
             errors[spp].push_back(error.rmse);
         }
@@ -208,7 +212,7 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
 std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
                                          const Reference &reference,
                                          const CurveBaseline &baseline) {
-    const auto &rule = bench.gate.convergence;
+    const auto &rule = *bench.gate.convergence;
     const auto pair_name = [&](uint64_t spp) {
         return fmt::format("{} at {} spp", curve.id(), spp);
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gate's checks: scheduling independence, convergence against the baseline, planted errors.
+// The gate's checks: scheduling independence, convergence against the baseline, agreement with the
+// reference, and planted errors that these checks must find.
 #pragma once
 
 #include <map>
@@ -19,6 +20,8 @@ namespace rtrays {
 struct CheckLine {
     std::string text;  ///< what was found
     bool passed = false;
+    /// Images of a failed check, by the names of their files without extension.
+    std::map<std::string, Image> images = {};
 };
 
 /// Everything that the checks need to render.
@@ -76,8 +79,8 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
                                          const Reference &reference, const CurveBaseline &baseline);
 
 /// Checks that the unchanged renderer agrees with the reference, and that every planted error is
-/// found. An error is found by the agreement test, with Holm's correction over the blocks and
+/// caught. An error is caught by the agreement test, with Holm's correction over the blocks and
 /// Bonferroni's over the curves, or by the slope.
-std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference);
+std::vector<CheckLine> check_agreement(const GateBench &bench, const Reference &reference);
 
 }  // namespace rtrays

@@ -15,8 +15,6 @@ GateDescription read_gate(const DescriptionFile &file) {
     json.at("name").get_to(gate.name);
     gate.source = file.path.string();
     read_measured_scene(file, json.at("size"), gate);
-    gate.baseline = file.resolve(json.at("baseline"));
-    const Json &convergence = json.at("convergence"), &planted = json.at("planted_errors");
     if (json.contains("bitwise")) {
         const Json &bitwise = json.at("bitwise");
         gate.bitwise = {bitwise.at("spp"), bitwise.at("split"), bitwise.at("group_sizes"),
@@ -27,13 +25,29 @@ GateDescription read_gate(const DescriptionFile &file) {
                                           gate.bitwise->spp));
         }
     }
-    convergence.at("spp").get_to(gate.convergence.spp);
-    require_increasing(gate.convergence.spp, file.location("/convergence/spp"));
-    convergence.at("renders").get_to(gate.convergence.renders);
-    convergence.at("second_stage_renders").get_to(gate.convergence.second_stage_renders);
-    planted.at("spp").get_to(gate.planted.spp);
-    for (const Json &error : planted.at("errors")) {
-        gate.planted.errors.push_back(read_planted_error(error));
+    if (json.contains("convergence")) {
+        const Json &convergence = json.at("convergence");
+        gate.convergence = {convergence.at("spp"), convergence.at("renders"),
+                            convergence.at("second_stage_renders")};
+        require_increasing(gate.convergence->spp, file.location("/convergence/spp"));
+        gate.baseline = file.resolve(json.at("baseline"));
+    }
+    if (json.contains("agreement")) {
+        const Json &agreement = json.at("agreement");
+        gate.agreement = {agreement.at("spp"), {}};
+        for (const Json &error : agreement.value("planted_errors", Json::array())) {
+            gate.agreement->planted_errors.push_back(read_planted_error(error));
+            if (gate.agreement->planted_errors.back().by_slope && !gate.convergence) {
+                throw input_error(
+                    fmt::format("{}: errors that the slope finds need \"convergence\"",
+                                file.location("/agreement/planted_errors")));
+            }
+        }
+    }
+    if (!gate.bitwise && !gate.convergence && !gate.agreement) {
+        throw input_error(
+            fmt::format("{}: nothing to check; add \"bitwise\", \"convergence\" or \"agreement\"",
+                        file.path.string()));
     }
     return gate;
 }

@@ -33,10 +33,10 @@ TEST(Plant, ShippedErrorsFitTheShippedKernels) {
     for (const char *name : {"gate_cornell_box", "gate_mirror_ring"}) {
         const std::string path = fmt::format("{}/gates/{}.json", RTRAYS_EXPERIMENTS, name);
         const GateDescription gate = read_gate(load_description(path, "gate.schema.json"));
-        for (const auto &error : gate.planted.errors) {
+        for (const auto &error : gate.agreement->planted_errors) {
             EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
         }
-        EXPECT_NO_THROW(require_plantable(gate.planted.errors));
+        EXPECT_NO_THROW(require_plantable(gate.agreement->planted_errors));
     }
     const std::string path = RTRAYS_EXPERIMENTS "/gates/algorithms.json";
     for (const Json &json :

@@ -46,7 +46,7 @@ const std::vector<Kind> &experiment_kinds() {
         {"agreement", "agreement.schema.json", {profile, out}, by_driver, make_agreement},
         {"gate",
          "gate.schema.json",
-         {Option::check, Option::update_baseline},
+         {Option::check, Option::save, Option::update_baseline},
          by_driver,
          make_gate},
     };

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "renderer/base/files.h"
-#include "renderer/base/progress.h"
 
 namespace rtrays {
 
@@ -17,8 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path partial_file(const LadderTask &task, uint32_t seed, const std::string &extension) {
-    return task.partial /
-           fmt::format("{}.seed{}.{}", CurveDescription{task.settings}.id(), seed, extension);
+    return task.partial / fmt::format("{}.seed{}.{}", task.id, seed, extension);
 }
 
 constexpr uint32_t first_seed = 1;
@@ -27,35 +25,18 @@ fs::path early_file(const LadderTask &task, uint64_t spp) {
     return partial_file(task, first_seed, fmt::format("{}spp.exr", spp));
 }
 
-/// Creates the session when the first seed needs it. A resumed run may need none.
-class LazySession {
-  public:
-    explicit LazySession(const LadderTask &task) : task_(task) {}
-
-    RenderSession &get() {
-        if (!session_) {
-            session_ = std::make_unique<RenderSession>(task_.scenes.session(task_.settings));
-        }
-        return *session_;
-    }
-
-  private:
-    const LadderTask &task_;
-    std::unique_ptr<RenderSession> session_;
-};
-
 fs::path batch_file(const LadderTask &task, uint32_t seed, uint64_t batch) {
     return partial_file(task, seed, fmt::format("batch{}.exr", batch));
 }
 
-/// Renders the ladder of one seed and writes its batches and early images.
-Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
-    session.restart(seed);
+/// Renders the ladder of one seed and writes its last image, its batches and early images.
+Repetition render_ladder(const LadderTask &task, CurveSource &source, uint32_t seed) {
+    source.restart(seed);
     Repetition repetition;
     repetition.seed = seed;
     const uint64_t batch_spp = task.spp.back() / batches_per_seed;
     std::set<uint64_t> stops(task.spp.begin(), task.spp.end());
-    for (uint64_t batch = 1; batch <= batches_per_seed; ++batch) {
+    for (uint64_t batch = 1; task.has_batches && batch <= batches_per_seed; ++batch) {
         stops.insert(batch * batch_spp);
     }
     const auto is_in = [](const std::vector<uint64_t> &counts, uint64_t spp) {
@@ -64,24 +45,26 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
     uint64_t done = 0, batches = 0;
     Image before;
     for (const uint64_t spp : stops) {
-        render_whole(session, done, spp);
-        const RenderStats stats = session.stats();
-        const Image image = session.develop();
+        const TimedImage rendered = source.render_to(spp);
+        const Image &image = rendered.image;
         if (is_in(task.spp, spp)) {
-            repetition.points.push_back({spp, stats.device_seconds, stats.wall_seconds,
+            repetition.points.push_back({spp, rendered.seconds_device, rendered.seconds_wall,
                                          compute_metrics(image, task.reference),
                                          divide_mse(image, task.reference, task.first_hits)});
         }
         if (seed == first_seed && is_in(task.early_images, spp)) {
             write_exr(image, early_file(task, spp));
         }
-        if (spp == (batches + 1) * batch_spp) {
+        if (task.has_batches && spp == (batches + 1) * batch_spp) {
             write_exr(last_batch(before, image, batches + 1), batch_file(task, seed, batches));
             before = image;
             ++batches;
         }
         task.advance(spp - done);
         done = spp;
+        if (spp == task.spp.back()) {
+            write_exr(image, partial_file(task, seed, "exr"));
+        }
     }
     return repetition;
 }
@@ -90,34 +73,31 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
 
 LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;
-    LazySession session(task);
+    std::unique_ptr<CurveSource> source;  // a resumed run may need none
     for (uint32_t seed = first_seed; seed < first_seed + task.seeds; ++seed) {
-        const fs::path numbers = partial_file(task, seed, "json"),
-                       picture = partial_file(task, seed, "exr");
+        const fs::path numbers = partial_file(task, seed, "json");
         // The measurements are written last, so the images exist if the measurements do.
         if (fs::exists(numbers)) {
             const Json stored = load_json(numbers);
             result.repetitions.push_back(parse_repetition(stored.at("repetition")));
-            result.cost = stored.at("cost");
-            result.images.push_back(read_exr(picture));
+            result.description = stored.at("description");
             task.advance(task.spp.back());
         } else {
-            result.repetitions.push_back(render_ladder(task, session.get(), seed));
-            const RenderStats stats = session.get().stats();
-            result.cost = {{"compile_seconds", stats.compile_seconds},
-                           {"bvh_seconds", stats.bvh_seconds},
-                           {"render_report", session.get().report()}};
-            result.images.push_back(session.get().develop());
-            write_exr(result.images.back(), picture);
+            if (!source) {
+                source = task.make_source();
+            }
+            result.repetitions.push_back(render_ladder(task, *source, seed));
+            result.description = source->description();
             write_file(numbers, Json{{"repetition", to_json(result.repetitions.back())},
-                                     {"cost", result.cost}}
+                                     {"description", result.description}}
                                     .dump());
         }
-        for (uint64_t batch = 0; batch < batches_per_seed; ++batch) {
+        result.images.push_back(read_exr(partial_file(task, seed, "exr")));
+        for (uint64_t batch = 0; task.has_batches && batch < batches_per_seed; ++batch) {
             result.batches.push_back(read_exr(batch_file(task, seed, batch)));
         }
     }
-    if (task.settings.sampler == Sampler::sobol) {
+    if (!task.has_batches) {
         result.batches = result.images;
     }
     for (const uint64_t spp : task.early_images) {
@@ -127,9 +107,8 @@ LadderResult render_ladders(const LadderTask &task) {
 }
 
 std::vector<Image> render_fresh_batches(const LadderTask &task) {
-    RenderSession session = task.scenes.session(task.settings);
-    return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds,
-                          batches_per_seed * task.seeds);
+    return task.make_source()->independent_images(
+        first_seed + task.seeds, 2 * task.spp.back() * task.seeds, batches_per_seed * task.seeds);
 }
 
 }  // namespace rtrays

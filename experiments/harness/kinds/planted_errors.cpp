@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that the gate finds the errors that are planted in the kernels.
+// Checks that images agree with the reference, and that errors planted in the kernels are caught.
 #include <fmt/format.h>
 
 #include "experiments/harness/core/agreement.h"
@@ -14,13 +14,16 @@ namespace {
 constexpr uint64_t batches = 32;
 constexpr uint32_t seed = 1;
 
-Agreement agreement_of(const GateBench &bench, const RenderSettings &settings,
-                       const Reference &reference) {
+std::vector<Image> batches_of(const GateBench &bench, const RenderSettings &settings) {
     RenderSession session = bench.session(settings);
+    return render_batches(session, seed, bench.gate.agreement->spp, batches);
+}
+
+Agreement agreement_of(const GateBench &bench, const std::vector<Image> &images,
+                       const Reference &reference) {
     AgreementPolicy policy;
     policy.alpha /= static_cast<double>(bench.gate.curves.size());
-    return test_agreement(render_batches(session, seed, bench.gate.planted.spp, batches),
-                          reference.image, policy);
+    return test_agreement(images, reference.image, policy);
 }
 
 std::string describe(const Agreement &agreement) {
@@ -32,50 +35,60 @@ std::string describe(const Agreement &agreement) {
         100 * low, 100 * high);
 }
 
-CheckLine found_line(const PlantedError &error, bool found, const std::string &detail) {
-    return {fmt::format("planted error '{}' in {}: {}: {}", error.name,
-                        error.settings.algorithm->name, found ? "found" : "not found", detail),
-            found};
+CheckLine caught_line(const PlantedError &error, bool caught, const std::string &detail) {
+    return {fmt::format("planted '{}' in {} was {}caught: {}", error.name,
+                        error.settings.algorithm->name, caught ? "" : "not ", detail),
+            caught};
 }
 
-/// Renders with the planted error and compares the image, or the slope. The check passes if the
-/// error is found.
-CheckLine find_error(const GateBench &bench, const PlantedError &error,
-                     const Reference &reference) {
+/// Checks the image of an unchanged curve.
+CheckLine check_curve(const GateBench &bench, const CurveDescription &curve,
+                      const Reference &reference) {
+    const std::vector<Image> images = batches_of(bench, curve.settings);
+    const Agreement agreement = agreement_of(bench, images, reference);
+    const bool tested = agreement.tests > agreement.undecided;
+    const char *finding = "differs from the reference";
+    if (agreement.agrees()) {
+        finding = tested ? "agrees with the reference" : "too few tests are decided";
+    }
+    CheckLine line{fmt::format("{}: {}: {}", curve.id(), finding, describe(agreement)),
+                   agreement.agrees() && tested};
+    if (!line.passed) {
+        line.images = {{curve.id(), average_images(images)}, {"reference", reference.image}};
+    }
+    return line;
+}
+
+/// Renders with a planted error and compares the image, or the slope. The check passes if the error
+/// is caught.
+CheckLine check_planted(const GateBench &bench, const PlantedError &error,
+                        const Reference &reference) {
     const RenderSettings settings = planted_settings(error);
     if (error.by_slope) {
         const CurveDescription curve{settings};
         const StageErrors errors = measure_errors(bench, curve, reference, second_stage_seed,
-                                                  bench.gate.convergence.second_stage_renders);
+                                                  bench.gate.convergence->second_stage_renders);
         const CheckLine slope = check_slope(curve.id(), errors, errors, reference);
-        return found_line(error, !slope.passed, slope.text);
+        return caught_line(error, !slope.passed, slope.text);
     }
-    const Agreement agreement = agreement_of(bench, settings, reference);
-    return found_line(error, !agreement.agrees(), describe(agreement));
+    const Agreement agreement = agreement_of(bench, batches_of(bench, settings), reference);
+    return caught_line(error, !agreement.agrees(), describe(agreement));
 }
 
 }  // namespace
 
-std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference) {
-    const auto &planted = bench.gate.planted;
+std::vector<CheckLine> check_agreement(const GateBench &bench, const Reference &reference) {
+    const auto &errors = bench.gate.agreement->planted_errors;
     std::vector<CheckLine> lines;
-    Progress progress("planted errors", bench.gate.curves.size() + planted.errors.size(), "renders",
+    Progress progress("agreement", bench.gate.curves.size() + errors.size(), "renders",
                       bench.quiet);
-    uint64_t done = 0;
     for (const auto &curve : bench.gate.curves) {
-        const Agreement agreement = agreement_of(bench, curve.settings, reference);
-        const bool tested = agreement.tests > agreement.undecided;
-        const char *finding = "differs from the reference";
-        if (agreement.agrees()) {
-            finding = tested ? "agrees with the reference" : "too few tests are decided";
-        }
-        lines.push_back({fmt::format("{}: {}: {}", curve.id(), finding, describe(agreement)),
-                         agreement.agrees() && tested});
-        progress.update(++done);
+        lines.push_back(check_curve(bench, curve, reference));
+        progress.update(lines.size());
     }
-    for (const auto &error : planted.errors) {
-        lines.push_back(find_error(bench, error, reference));
-        progress.update(++done);
+    for (const auto &error : errors) {
+        lines.push_back(check_planted(bench, error, reference));
+        progress.update(lines.size());
     }
     return lines;
 }

@@ -12,8 +12,27 @@ def algorithm_name(name):
     return " ".join(NAMES.get(word, word.replace("_", " ")) for word in name.split(" "))
 
 
+def is_other(curve):
+    """Whether another renderer made the images of a curve."""
+    return "engine" in curve
+
+
+def own_curves(run):
+    """Returns the curves of this renderer."""
+    return [curve for curve in run.curves if not is_other(curve)]
+
+
+def clock_of(run):
+    """The time by which curves are compared: "device", or "wall" if another renderer takes part,
+    whose device time nobody knows."""
+    return "wall" if any(map(is_other, run.curves)) else "device"
+
+
 def label(curve):
-    """Returns the name of a curve in tables and legends."""
+    """Returns the name of a curve in tables and legends: its own, that of another renderer, or one
+    from its id."""
+    if "label" in curve or is_other(curve):
+        return curve.get("label") or value(curve, "engine")
     algorithm, _, settings = value(curve, "id").partition(".")
     shown = [
         NAMES.get(setting, setting.replace("_", " ").replace("=", " = "))
@@ -28,9 +47,9 @@ def curve_named(run, name):
 
 
 def base_curve(run):
-    """Returns the curve of path tracing with both strategies, or the last curve of a run without
-    it."""
-    return curve_named(run, "path_tracing.mis") or run.curves[-1]
+    """Returns the curve of path tracing with both strategies; without it the last curve, of this
+    renderer if there is one."""
+    return curve_named(run, "path_tracing.mis") or (own_curves(run) or run.curves)[-1]
 
 
 # Settings that both curves of a gain should share.
@@ -49,9 +68,11 @@ def base_for(run, curve):
     def others(other):
         return {key: each for key, each in value(other, "settings").items() if key not in SHARED}
 
+    if is_other(curve) or is_other(base):
+        return base
     own = (
         other
-        for other in run.curves
+        for other in own_curves(run)
         if other is not curve
         and (value(other, "algorithm"), value(other, "strategies")) == ("path_tracing", "mis")
         and shared(other) == shared(curve)
@@ -80,6 +101,8 @@ def shown_curves(run):
 def is_blind(curve):
     """Whether the algorithm misses light of the scene: light tracing does not see into mirrors and
     glass."""
+    if is_other(curve):
+        return False
     features = value(curve, "render_report.features")
     return value(curve, "algorithm") == "light_tracing" and "delta" in features
 
@@ -87,18 +110,22 @@ def is_blind(curve):
 def is_stratified(curve):
     """Whether the samples fill the domain evenly, so that errors may fall faster than with
     independent samples."""
-    return value(curve, "settings").get("integrator.sampler") == "sobol"
+    return not is_other(curve) and value(curve, "settings").get("integrator.sampler") == "sobol"
+
+
+def has_pilot(curve):
+    """Whether a pilot chose the number of light paths."""
+    return "pilot" in curve.get("render_report", {})
 
 
 def pilot_seconds(curve):
     """Returns the device time of the pilot; zero without one."""
-    has_pilot = "pilot" in value(curve, "render_report")
-    return value(curve, "render_report.pilot.seconds") if has_pilot else 0.0
+    return value(curve, "render_report.pilot.seconds") if has_pilot(curve) else 0.0
 
 
 def lacks_wall_time_of_pilot(curve):
     """Whether the curve's wall times exclude the pilot, as those of version 0.1.0 do."""
-    return "seconds_wall" not in value(curve, "render_report").get("pilot", {"seconds_wall": 0.0})
+    return has_pilot(curve) and "seconds_wall" not in value(curve, "render_report.pilot")
 
 
 def seconds(curve, entry, clock):

@@ -11,7 +11,7 @@ of a render of N samples: a longer render gains more.
 
 import numpy
 
-from rtrays.documents.curves import is_stratified, pilot_seconds, usable_points
+from rtrays.documents.curves import is_stratified, pilot_seconds, seconds, usable_points
 from rtrays.documents.document import RunError, value
 
 DRAWS = 2000
@@ -24,10 +24,10 @@ def exponent(curve):
 
 
 class Cost:
-    """MSE and device seconds of a curve, the pilot included, at its last point above the
+    """MSE and seconds of a curve by a clock, the pilot included, at its last point above the
     reference's noise, or at the last one up to `spp`."""
 
-    def __init__(self, curve, noise, spp=None):
+    def __init__(self, curve, noise, spp=None, clock="device"):
         points = [
             point for point in usable_points(curve) if spp is None or value(point, "spp") <= spp
         ]
@@ -42,7 +42,7 @@ class Cost:
         self.exponent = exponent(curve)
         repetitions = value(point, "repetitions")
         self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise
-        self.seconds = float(numpy.median([value(r, "seconds_device") for r in repetitions]))
+        self.seconds = float(numpy.median([seconds(curve, r, clock) for r in repetitions]))
 
 
 def draws_of_mean(sample, generator):
@@ -61,24 +61,24 @@ def ratio_of_means(over, under, scale=1.0):
 
 
 def ratio(base, curve, key):
-    """Returns the MSE of `base` over that of `curve` for equal samples ("spp") or in equal device
-    time ("seconds"), with the bootstrap's 95 % interval over seeds."""
+    """Returns the MSE of `base` over that of `curve` for equal samples ("spp") or in equal time
+    ("seconds"), with the bootstrap's 95 % interval over seeds."""
     return ratio_of_means(
         base.mse, curve.mse, (getattr(base, key) / getattr(curve, key)) ** base.exponent
     )
 
 
-def costs(base, curve, noise):
+def costs(base, curve, noise, clock="device"):
     """Returns the costs of two curves at the last sample count that both have."""
     spp = min(Cost(base, noise).spp, Cost(curve, noise).spp)
-    return Cost(base, noise, spp), Cost(curve, noise, spp)
+    return Cost(base, noise, spp, clock), Cost(curve, noise, spp, clock)
 
 
-def gain(base, curve, noise, key):
+def gain(base, curve, noise, key, clock="device"):
     """Returns how many times smaller the MSE of `curve` is than that of `base`, for equal samples
-    ("spp") or in equal device time ("seconds"); see the head of this file. If the samples of `base`
-    are independent, it needs as many times the samples or the time for an equal error."""
-    return ratio(*costs(base, curve, noise), key)
+    ("spp") or in equal time by a clock ("seconds"); see the head of this file. If the samples of
+    `base` are independent, it needs as many times the samples or the time for an equal error."""
+    return ratio(*costs(base, curve, noise, clock), key)
 
 
 def share_of_pass(curve, name):

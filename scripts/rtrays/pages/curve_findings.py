@@ -4,10 +4,12 @@
 from rtrays.documents.curves import (
     base_curve,
     base_for,
+    clock_of,
     curve_named,
     has_several_bases,
     is_stratified,
     label,
+    own_curves,
 )
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import costs, gain, ratio, share_of_pass
@@ -36,11 +38,11 @@ def explanation(run):
     if curve is None:
         return ""
     noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
-    usual, ours = costs(base, curve, noise)
+    usual, ours = costs(base, curve, noise, clock_of(run))
     text = (
         f"For equal error {label(base)} needs {times(ratio(usual, ours, 'spp'))} times as many"
         f" samples as {label(curve)}. A sample of {label(curve)} takes"
-        f" {ours.seconds / usual.seconds:.2f} times as much device time; its light pass is"
+        f" {ours.seconds / usual.seconds:.2f} times as much {clock_of(run)} time; its light pass is"
         f" {100 * share_of_pass(curve, 'light'):.0f} % of that."
     )
     full = curve_named(run, "bdpt.mis")
@@ -59,23 +61,24 @@ def explanation(run):
 
 
 def gain_over_base(run, curve):
-    """Returns the gain of a curve in equal device time over path tracing under its own settings, as
+    """Returns the gain of a curve in equal time over path tracing under its own settings, as
     words."""
     base = base_for(run, curve)
-    measured = gain(base, curve, run.get("reference.noise_floor.mse"), "seconds")
+    measured = gain(base, curve, run.get("reference.noise_floor.mse"), "seconds", clock_of(run))
     return f"{label(curve)} has {times(measured)} times the efficiency of {label(base)}"
 
 
 def gain_finding(run, curve):
-    """Returns the sentences that state the gain of a curve in equal device time, that of the same
+    """Returns the sentences that state the gain of a curve in equal time, that of the same
     algorithm with Sobol points on both sides, and that of the best setting."""
     claimed = run.get("experiment.expected_gain.time")
     sentences = [
-        f"In equal device time {gain_over_base(run, curve)}; the thesis claims {claimed:g}."
+        f"In equal {clock_of(run)} time {gain_over_base(run, curve)}; the thesis claims"
+        f" {claimed:g}."
     ]
     sentences += [
         f"With the same sampler on both sides, {gain_over_base(run, other)}."
-        for other in run.curves
+        for other in own_curves(run)
         if value(other, "algorithm") == value(curve, "algorithm")
         and is_stratified(other)
         and is_stratified(base_for(run, other))
@@ -95,11 +98,13 @@ def counted(rows, what):
 
 
 def most_efficient(run):
-    """Returns the sentence that names the curve of the largest gain in equal device time, if the
+    """Returns the sentence that names the curve of the largest gain in equal time, if the
     interval is above 1."""
     noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
     gains = [
-        (curve, gain(base, curve, noise, "seconds")) for curve in run.curves if curve is not base
+        (curve, gain(base, curve, noise, "seconds", clock_of(run)))
+        for curve in run.curves
+        if curve is not base
     ]
     if not gains:
         return ""
@@ -108,9 +113,9 @@ def most_efficient(run):
     if any(map(is_stratified, run.curves)) and not is_stratified(base):
         name += " with independent samples"
     if value(measured, "low") <= 1:
-        return f"No curve has a higher efficiency than {name} in equal device time."
+        return f"No curve has a higher efficiency than {name} in equal {clock_of(run)} time."
     return (
-        f"In equal device time {label(best)} has the highest efficiency,"
+        f"In equal {clock_of(run)} time {label(best)} has the highest efficiency,"
         f" {times(measured)} times that of {name}."
     )
 
@@ -128,4 +133,7 @@ def finding(run):
     images = counted(
         [agreement_row(curve) for curve in run.curves], "images agree with the reference"
     )
-    return f"{slopes}; {images}. {most_efficient(run)}".strip()
+    sentences = [f"{slopes}; {images}.", most_efficient(run)]
+    if not run.source:  # a question of one's own asks for the best curve
+        sentences.reverse()
+    return " ".join(filter(None, sentences))

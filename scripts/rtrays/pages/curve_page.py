@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Page of a run of curves, with its tables and plots."""
 
+from rtrays.documents.curves import clock_of
 from rtrays.documents.error_parts import has_parts
 from rtrays.documents.experiments import experiment_path
 from rtrays.pages.curve_findings import explanation, finding
@@ -37,7 +38,8 @@ def curve_page(run):
     decisive plot first."""
     tables, figures = write_tables(run), write_plots(run)
     verdicts = verdict_table(run)
-    first = "rmse_seconds_device.svg" if gain_rows(run) else "rmse_spp.svg"
+    is_about_time = bool(gain_rows(run)) or clock_of(run) == "wall"
+    first = f"rmse_seconds_{clock_of(run)}.svg" if is_about_time else "rmse_spp.svg"
     blocks = [Figure(f"plots/{first}", figures[first], png=True), TableBlock(verdicts)]
     if explanation(run):
         blocks.append(Text(explanation(run)))

@@ -1,7 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of curves."""
 
-from rtrays.documents.curves import label, lacks_wall_time_of_pilot, seconds
+from rtrays.documents.curves import (
+    clock_of,
+    has_pilot,
+    label,
+    lacks_wall_time_of_pilot,
+    own_curves,
+    seconds,
+)
 from rtrays.documents.document import value, write_text
 from rtrays.documents.undecided import factor_of_agreement, with_advice
 from rtrays.tables.cells import interval, number
@@ -21,13 +28,17 @@ PILOT_NOTE_WITHOUT_WALL_TIME = (
     " of it, so that its device time is added to the wall time."
 )
 
+OTHER_NOTE = (
+    "The times of another renderer are those that it reports for its render call, or those of its"
+    " process; both columns have them."
+)
+
 
 def pilot_note(run):
     """Returns the note on times of curves with a pilot; empty without one."""
     if any(lacks_wall_time_of_pilot(curve) for curve in run.curves):
         return PILOT_NOTE_WITHOUT_WALL_TIME
-    has_pilot = any("pilot" in value(curve, "render_report") for curve in run.curves)
-    return PILOT_NOTE if has_pilot else ""
+    return PILOT_NOTE if any(map(has_pilot, run.curves)) else ""
 
 
 def errors_table(run):
@@ -58,7 +69,7 @@ def errors_table(run):
         "Errors and times, medians over seeds",
         columns,
         rows,
-        [pilot_note(run)],
+        [pilot_note(run), OTHER_NOTE if clock_of(run) == "wall" else ""],
     )
 
 
@@ -121,7 +132,7 @@ def cost_table(run):
             number(value(curve, "compile_seconds"), 4),
             number(value(curve, "bvh_seconds"), 4),
         ]
-        for curve in run.curves
+        for curve in own_curves(run)
     ]
     return Table(
         "Times that the curves do not include",
@@ -167,7 +178,8 @@ def write_tables(run):
     folder "tables"; returns the tables by name."""
     folder = run.folder / "tables"
     folder.mkdir(parents=True, exist_ok=True)
-    tables = {name: make(run) for name, make in TABLES.items()}
+    made = ((name, make(run)) for name, make in TABLES.items())
+    tables = {name: table for name, table in made if table is not None}
     for name, table in tables.items():
         table.write(folder, name)
     write_text(folder / "repetitions.csv", repetitions_table(run).csv())

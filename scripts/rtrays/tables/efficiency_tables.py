@@ -1,7 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of curves: what its samples cost and where its errors are."""
 
-from rtrays.documents.curves import base_curve, base_for, has_several_bases, label
+from rtrays.documents.curves import (
+    base_curve,
+    base_for,
+    clock_of,
+    has_several_bases,
+    label,
+    own_curves,
+)
 from rtrays.documents.document import value
 from rtrays.documents.edges import edges_document
 from rtrays.documents.efficiency import Cost, gain
@@ -9,24 +16,26 @@ from rtrays.tables.cells import BASELINE, NONE, interval, number
 from rtrays.tables.table import Table
 
 
-def gain_cells(base, curve, noise):
+def gain_cells(run, base, curve):
     """Returns the gains of a curve over another one in equal samples and in equal time as text."""
-    return [interval(gain(base, curve, noise, key), digits=4) for key in ("spp", "seconds")]
+    noise = run.get("reference.noise_floor.mse")
+    gains = (gain(base, curve, noise, key, clock_of(run)) for key in ("spp", "seconds"))
+    return [interval(each, digits=4) for each in gains]
 
 
-def own_cells(run, curve, noise):
+def own_cells(run, curve):
     """Returns the base of a curve under its own settings and the gains over it as text; dashes if
     it is that of the run."""
     own = base_for(run, curve)
     if own is base_curve(run):
         return [NONE] * 3
-    return [label(own), *gain_cells(own, curve, noise)]
+    return [label(own), *gain_cells(run, own, curve)]
 
 
 OWN_COLUMNS = (
     "path tracing under the same settings",
     "gain over it in equal samples, times",
-    "gain over it in equal device time, times",
+    "gain over it in equal {clock} time, times",
 )
 OWN_NOTE = (
     "The last columns compare with path tracing that has the sampler, light selection and sphere"
@@ -43,7 +52,7 @@ def efficiency_table(run):
     base, several = base_curve(run), has_several_bases(run)
     rows = []
     for curve in run.curves:
-        cost = Cost(curve, noise)
+        cost = Cost(curve, noise, clock=clock_of(run))
         rows.append(
             [
                 label(curve),
@@ -51,8 +60,8 @@ def efficiency_table(run):
                 number(cost.mse.mean()),
                 number(cost.seconds, 4),
                 number(cost.pilot_seconds),
-                *([BASELINE] * 2 if curve is base else gain_cells(base, curve, noise)),
-                *(own_cells(run, curve, noise) if several else []),
+                *([BASELINE] * 2 if curve is base else gain_cells(run, base, curve)),
+                *(own_cells(run, curve) if several else []),
             ]
         )
     return Table(
@@ -61,17 +70,17 @@ def efficiency_table(run):
             "curve",
             "samples per pixel",
             "MSE minus reference noise",
-            "device time with pilot, s",
+            f"{clock_of(run)} time with pilot, s",
             "pilot alone, s",
             "gain in equal samples, times",
-            "gain in equal device time, times",
-            *(OWN_COLUMNS if several else []),
+            f"gain in equal {clock_of(run)} time, times",
+            *(head.format(clock=clock_of(run)) for head in OWN_COLUMNS if several),
         ],
         rows,
         [
             f"Gain in equal samples: how many times the samples {label(base)} needs for the same"
-            " error. Gain in equal device time: how many times smaller the MSE is in the same"
-            " time. The time of a pilot counts; it is the same for any number of samples, so a"
+            f" error. Gain in equal {clock_of(run)} time: how many times smaller the MSE is in the"
+            " same time. The time of a pilot counts; it is the same for any number of samples, so a"
             " longer render gains more. Light that an algorithm misses counts as error.",
             *([OWN_NOTE] if several else []),
         ],
@@ -88,7 +97,7 @@ THESIS_MEMORY = {
 def memory_table(run):
     """Bytes for every path in flight, queues included."""
     rows = []
-    for curve in run.curves:
+    for curve in own_curves(run):
         report = value(curve, "render_report")
         rows.append(
             [
@@ -98,15 +107,16 @@ def memory_table(run):
                 THESIS_MEMORY.get(value(curve, "algorithm"), NONE),
             ]
         )
-    return Table(
-        "Memory of a path in flight, whatever its length",
-        ["curve", "bytes per path", "bytes of light vertices", "thesis"],
-        rows,
-    )
+    columns = ["curve", "bytes per path", "bytes of light vertices", "thesis"]
+    table = Table("Memory of a path in flight, whatever its length", columns, rows)
+    return table if run.source else table.with_columns(columns[:-1])
 
 
 def throughput_table(run):
-    """Renderer against reference, or the reason why the measurement was refused."""
+    """Renderer against reference, or the reason why the measurement was refused; None if it was not
+    measured."""
+    if "throughput" not in run.document:
+        return None
     throughput = run.get("throughput")
     columns = ["curve", "renderer, Msamples/s", "reference, Msamples/s", "renderer / reference"]
     named = next(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables that say where the error of a run of curves is, and under which settings."""
 
-from rtrays.documents.curves import base_curve, base_for, has_several_bases, label
+from rtrays.documents.curves import base_curve, base_for, has_several_bases, label, own_curves
 from rtrays.documents.document import value
 from rtrays.documents.error_parts import (
     CLASSES,
@@ -120,7 +120,7 @@ def values_of(run, path):
     """Returns the values of a setting as text: the common one first, then those of other curves
     with their names."""
     curves = {}
-    for curve in run.curves:
+    for curve in own_curves(run):
         curves.setdefault(setting_of(curve, path), []).append(label(curve))
     ordered = sorted(curves.items(), key=lambda entry: -len(entry[1]))
     texts = [str(ordered[0][0])]
@@ -128,12 +128,20 @@ def values_of(run, path):
 
 
 def settings_table(run):
-    """The settings that chapter 4 of the thesis names, and ours."""
+    """The settings that chapter 4 of the thesis names, and ours; only ours in a run that is not
+    about the thesis."""
     rows = [
         [name, thesis, values_of(run, path)]
         for name, path, thesis in PINNED
-        if any(setting_of(curve, path) for curve in run.curves)
+        if any(setting_of(curve, path) for curve in own_curves(run))
     ]
+    if not run.source:
+        return Table(
+            "Settings",
+            ["setting", "curves of this run"],
+            [[name, values] for name, _, values in rows],
+            ["Other settings are in run.json."],
+        )
     return Table(
         "Settings that the thesis names",
         ["setting", "chapter 4 of the thesis", "curves of this run"],

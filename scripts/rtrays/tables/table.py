@@ -5,7 +5,7 @@ import csv
 import io
 import re
 
-from rtrays.documents.document import write_text
+from rtrays.documents.document import RunError, write_text
 from rtrays.tables.cells import Interval, Lines, Link
 
 # Numbers and intervals with units, ranges, and counts, as tables print them. An empty cell or a
@@ -51,6 +51,22 @@ class Table:
         cell of an item)."""
         rows = [[cell(item) for _, cell in columns] for item in items]
         return cls(caption, [head for head, _ in columns], rows, notes)
+
+    def with_columns(self, heads):
+        """Returns the table with some of its columns, in the given order; all without any. Raises
+        RunError for an unknown one."""
+        unknown = [head for head in heads if head not in self.columns]
+        if unknown:
+            raise RunError(
+                f"unknown column '{unknown[0]}'; columns are: {', '.join(self.columns)}"
+            )
+        kept = [self.columns.index(head) for head in heads] or range(len(self.columns))
+        return Table(
+            self.caption,
+            [self.columns[i] for i in kept],
+            [[row[i] for i in kept] for row in self.rows],
+            self.notes,
+        )
 
     @property
     def numeric(self):

@@ -30,6 +30,23 @@ class EfficiencyTables(RunFolder):
         with self.assertRaisesRegex(RunError, "path_tracing.mis has no point above"):
             efficiency_table(self.run_object())
 
+    def test_another_renderer_is_compared_in_wall_time(self):
+        other = self.document["curves"][0]
+        for key in ("algorithm", "strategies", "settings", "render_report", "bvh_seconds"):
+            del other[key]
+        other.update(id="cycles", engine="Cycles 9")
+        for point in other["points"]:
+            for repetition in point["repetitions"]:
+                repetition.update(seconds_device=0.3, seconds_wall=0.3)
+        run = self.run_object()
+        table = efficiency_table(run)
+        self.assertIn("gain in equal wall time, times", table.columns)
+        rows = {row[0]: row for row in table.rows}
+        self.assertEqual(rows["path tracing (MIS)"][3], "0.8")  # wall time
+        self.assertEqual(rows["Cycles 9"][3:], ["0.3", "0", "1 [1, 1]", "2.667 [2.667, 2.667]"])
+        self.assertEqual([row[0] for row in memory_table(run).rows], ["path tracing (MIS)"])
+        self.assertIn("In equal wall time Cycles 9 has the highest efficiency", finding(run))
+
     def add_sobol_curves(self):
         """Adds path tracing and truncated BDPT with Sobol points, whose MSE falls as N^-1.5. At 4
         spp truncated BDPT has a quarter of the MSE without noise, in twice the time."""

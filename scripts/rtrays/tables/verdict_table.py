@@ -1,7 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Table of verdicts on the curves of a run."""
 
-from rtrays.documents.curves import base_for, is_blind, is_stratified, label
+from rtrays.documents.curves import (
+    base_for,
+    clock_of,
+    is_blind,
+    is_other,
+    is_stratified,
+    label,
+    own_curves,
+)
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import gain
 from rtrays.documents.undecided import (
@@ -16,6 +24,7 @@ from rtrays.tables.table import Table
 
 BLIND = "not expected: light tracing does not see into mirrors and glass"
 STRATIFIED = "not expected: stratified samples"
+OTHER = "not expected: samples of another renderer"
 
 
 def gain_rows(run):
@@ -26,13 +35,14 @@ def gain_rows(run):
     noise = run.get("reference.noise_floor.mse")
     rows = []
     for key, of_run, words in (
-        ("time", "seconds", "equal device time"),
+        ("time", "seconds", f"equal {clock_of(run)} time"),
         ("samples", "spp", "equal samples"),
     ):
-        for curve in run.curves:
+        for curve in own_curves(run):
             if value(curve, "algorithm") == value(expected, "algorithm"):
                 base = base_for(run, curve)
-                claimed, measured = value(expected, key), gain(base, curve, noise, of_run)
+                claimed = value(expected, key)
+                measured = gain(base, curve, noise, of_run, clock_of(run))
                 verdict = with_advice(
                     gain_verdict(measured, claimed),
                     lambda: factor_of_gain(measured, claimed),
@@ -53,8 +63,8 @@ def gain_rows(run):
 def slope_row(curve, expected, tolerance):
     """Returns the row of the slope of one curve."""
     slope = value(curve, "slope")
-    if is_blind(curve) or is_stratified(curve):
-        verdict = BLIND if is_blind(curve) else STRATIFIED
+    if is_other(curve) or is_blind(curve) or is_stratified(curve):
+        verdict = OTHER if is_other(curve) else BLIND if is_blind(curve) else STRATIFIED
     else:
         verdict = with_advice(
             slope_verdict(slope, expected, tolerance),

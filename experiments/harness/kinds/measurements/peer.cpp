@@ -64,8 +64,9 @@ std::string Peer::next_record() {
 Seconds Peer::render(const PeerFrame &frame) {
     // The error of an image is that of its own samples.
     const uint64_t count = frame.image.empty() ? frames_ : 1;
-    process_.write(fmt::format("{} {} {} {} {}\n", frame.max_depth, count * frame.spp, ++seed_,
-                               frame.roulette, frame.image.string()));
+    process_.write(fmt::format("{} {} {} {} {}\n", frame.max_depth, count * frame.spp,
+                               frame.seed != 0 ? frame.seed : ++seed_, frame.roulette,
+                               frame.image.string()));
     const std::string answer = next_record();
     if (answer.empty()) {
         throw run_error(fmt::format("{} ended before its image was finished, with exit code {}",

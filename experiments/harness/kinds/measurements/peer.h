@@ -21,6 +21,7 @@ struct PeerFrame {
     /// has its own roulette, for any number but 0.
     uint32_t roulette = 0;
     std::filesystem::path image{};  ///< EXR file to write outside of the duration; empty: none
+    uint32_t seed = 0;              ///< 0: one that no frame had before
 };
 
 /// Process of `scripts/rtrays/peers/*_driver.py --serve`. Mitsuba 3 runs in the Python environment
@@ -38,8 +39,8 @@ class Peer {
     /// Returns the name of a kind that need not be installed: "Mitsuba 3 scalar_rgb".
     static std::string name_of(const std::string &kind);
 
-    /// Renders one frame of path tracing and returns its duration, measured in the process.
-    /// Another call has another seed. Throws `Error` (run failed) if the process ends.
+    /// Renders one frame of path tracing and returns its duration, measured in the process. Throws
+    /// `Error` (run failed) if the process ends.
     Seconds render(const PeerFrame &frame);
 
   private:
