@@ -3,6 +3,7 @@
 
 import unittest
 
+from rtrays.documents.document import RunError
 from rtrays.tables.cells import verdict_of
 from rtrays.tables.table import Table, latex_escape
 
@@ -24,6 +25,14 @@ class Forms(unittest.TestCase):
         table = Table("t", ["a", "b", "c"], [["x", "1.5 [1, 2]", "–"], ["y", "-3e-05", "12 of 70"]])
         self.assertEqual(table.numeric, [False, True, True])
         self.assertIn("| --- | ---: | ---: |", table.markdown())
+
+    def test_columns_are_chosen_by_their_heads(self):
+        table = Table("t", ["a", "b", "c"], [["1", "2", "3"], ["4", "5", "6"]])
+        chosen = table.with_columns(["c", "a"])
+        self.assertEqual((chosen.columns, chosen.rows), (["c", "a"], [["3", "1"], ["6", "4"]]))
+        self.assertEqual(table.with_columns([]).rows, table.rows)
+        with self.assertRaisesRegex(RunError, "unknown column 'd'; columns are: a, b, c"):
+            table.with_columns(["d"])
 
     def test_latex_is_escaped(self):
         self.assertEqual(latex_escape("50 % & a_b"), r"50 \% \& a\_b")

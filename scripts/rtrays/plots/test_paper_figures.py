@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""Tests the figures and tables for papers."""
+
+import csv
+import unittest
+
+import numpy
+
+from rtrays.documents.document import RunError
+from rtrays.plots.image_row import image_near, image_row
+from rtrays.plots.paper_plot import paper_figure
+from rtrays.testing import RunFolder
+
+
+class PaperFigures(RunFolder):
+    def test_a_curve_is_drawn_over_its_own_seconds(self):
+        run = self.run_object()
+        figure = paper_figure(run, "relmse", "wall", ["path_tracing.mis"])
+        (line,) = figure.axes[0].lines
+        numpy.testing.assert_allclose(line.get_xdata(), [0.2, 0.4, 0.8])  # 8 spp are noise
+        numpy.testing.assert_allclose(line.get_ydata(), [1, 1 / 2, 1 / 4])
+        self.assertEqual(figure.axes[0].get_xlabel(), "wall time, s")
+        self.assertEqual(len(paper_figure(run, "rmse", "spp").axes[0].lines), 2)
+        with self.assertRaisesRegex(RunError, "unknown curve 'bdpt'; curves are: path_tracing"):
+            paper_figure(run, "rmse", "spp", ["bdpt"])
+
+    def test_images_are_those_nearest_in_time(self):
+        curve = self.document["curves"][0]
+        curve["early_images"] = [
+            {"spp": spp, "image": f"images/{name}.exr"} for spp, name in ((1, "ours"), (4, "early"))
+        ]
+        run = self.run_object()
+        for time, spp in ((0.01, 1), (0.19, 1), (0.21, 4), (9, 4), (None, 4)):
+            found, seconds, picture = image_near(run, run.curves[0], time)
+            self.assertEqual((found, seconds), (spp, 0.1 * spp))
+            name = "ours" if spp == 1 else "early"
+            numpy.testing.assert_array_equal(picture, numpy.load(self.folder / f"images/{name}.npy"))
+
+    def test_the_row_shows_errors_with_their_scale(self):
+        run = self.run_object()
+        figure = image_row(run, None, ["path_tracing.mis"], [(1, 0, 2, 3)])
+        reference, early = (
+            numpy.load(self.folder / f"images/{name}.npy").astype(float)
+            for name in ("reference", "early")
+        )
+        axes = [each for each in figure.axes if each.images]
+        numpy.testing.assert_allclose(
+            axes[-1].images[0].get_array(), numpy.abs(early - reference).mean(axis=2)
+        )
+        self.assertEqual(axes[2].images[0].get_array().shape, (3, 2, 3))  # the inset
+        rmse = numpy.sqrt(((early - reference) ** 2).mean())
+        self.assertTrue(any(f"RMSE {rmse:.3g}" in each.get_xlabel() for each in axes))
+        self.assertEqual(figure.axes[-1].get_ylabel(), "|difference|")
+        with self.assertRaisesRegex(RunError, "not inside the image of 4x4"):
+            image_row(run, None, [], [(3, 0, 2, 1)])
+
+    def test_commands(self):
+        self.run_object()
+        for arguments in (
+            ("figure", self.folder, "-o", self.folder / "paper/plot.pdf"),
+            ("images", self.folder, "-o", self.folder / "paper/row.png", "--inset", "0,0,2x2"),
+            ("table", self.folder, "errors", "-o", self.folder / "paper/t.tex", "--columns", "RMSE"),
+            ("points", self.folder, self.folder, "-o", self.folder / "paper/points.csv"),
+        ):
+            done = self.results(*arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.folder / "paper").exists())
+        self.assertIn(r"\toprule", (self.folder / "paper/t.tex").read_text())
+        with open(self.folder / "paper/points.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        (row,) = (
+            row
+            for row in rows[: len(rows) // 2]
+            if (row["curve"], row["spp"], row["quantity"]) == ("path_tracing.mis", "4", "mse")
+        )
+        self.assertEqual([float(row[key]) for key in ("value", "low", "high")], [0.25] * 3)
+        self.assertEqual(self.results("images", self.folder, "-o", "x.bmp").returncode, 2)
+        self.assertEqual(self.results("table", self.folder, "slope", "-o", "x.tex").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
