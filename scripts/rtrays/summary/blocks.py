@@ -6,7 +6,7 @@ from rtrays.documents.gains import gain_entries
 from rtrays.lint.stages import stage_rows
 from rtrays.paths import RESULTS
 from rtrays.summary.runs import durations, runs
-from rtrays.summary.speeds import speeds, speeds_at_a_glance
+from rtrays.summary.speeds import renderers, speeds, speeds_at_a_glance
 from rtrays.tables.cells import interval
 from rtrays.tables.table import Table
 from rtrays.tables.text import name
@@ -56,6 +56,7 @@ BLOCKS = {
     "claims": claims,
     "claims_sentence": claims_sentence,
     "gains": gains,
+    "renderers": renderers,
     "runs": runs,
     "speeds": speeds,
     "speeds_at_a_glance": speeds_at_a_glance,

@@ -3,6 +3,7 @@
 
 from rtrays.documents.document import read_json, value
 from rtrays.documents.intervals import geometric_mean
+from rtrays.documents.curves import algorithm_name
 from rtrays.documents.measurements import (
     KINDS,
     build_speeds,
@@ -12,9 +13,16 @@ from rtrays.documents.measurements import (
     peer_entries,
     ray_mean,
 )
+from rtrays.documents.renderers import (
+    best_of,
+    contestants_of,
+    gain_in_time,
+    name_of,
+    seconds,
+)
 from rtrays.documents.run_document import Run
 from rtrays.paths import RESULTS
-from rtrays.tables.cells import NONE, number
+from rtrays.tables.cells import NONE, interval, number
 from rtrays.tables.table import Table
 from rtrays.tables.text import bounces_text, name, span
 
@@ -93,6 +101,27 @@ def gpu_rows():
     return rows and Table("GPU", ["device", "measurement", "here"], rows)
 
 
+def renderers():
+    """Returns error and speed beside the other renderers by scene."""
+    run = Run(CHAPTER4 / "renderers")
+    rows = []
+    for row in run.get("rows"):
+        own, other = best_of(run, row, True), best_of(run, row, False)
+        plain = contestants_of(row, True)[0]  # path tracing with independent samples
+        fastest = min(contestants_of(row, False), key=lambda c: seconds(run, c))
+        rows.append(
+            [
+                name(row["scene"]),
+                interval(gain_in_time(run, own, other), form="{:.2f}"),
+                algorithm_name(own["algorithm"]),
+                name_of(other).partition(",")[0],
+                f"{seconds(run, fastest) / seconds(run, plain):.2f}",
+            ]
+        )
+    heads = ["scene", "error at equal time", "our best", "their best", "samples per second"]
+    return Table("Other renderers", heads, rows).markdown()
+
+
 def speeds():
     """Returns all tables of speeds."""
     tables = [speed_rows(), embree_table(), gpu_rows()]
@@ -103,13 +132,20 @@ def speeds():
 
 
 def speeds_at_a_glance():
-    """Returns the speeds for README: peers by path length, rays and hierarchy over Embree, GPUs."""
-    peers = speed_rows()
-    peers.rows = [row for row in peers.rows if "scalar" not in row[0] and row[0] != "megakernel"]
+    """Returns the speeds for README: peers on large scenes, rays and hierarchy over Embree, GPUs."""
+    others = [
+        f"{min(row[1:])} to {max(row[1:])} ({row[0]})"
+        for row in speed_rows().rows
+        if "scalar" not in row[0] and row[0] != "megakernel"
+    ]
     rays = span(ray_means()[1].values())
     builds = span([geometric_mean(ratios) for ratios in build_ratios().values()])
-    text = f"Over Embree: {rays} of its rays per second, {builds} of its speed of BVH construction."
+    text = (
+        f"On six large diffuse scenes, 1 to 8 bounces, samples per second over others:"
+        f" {', '.join(others)}. Over Embree: {rays} of its rays per second, {builds} of its speed of"
+        " BVH construction."
+    )
     for row in (gpu_rows() or Table("", [], [])).rows:
         if row[1].startswith("diffuse"):
             text += f" On an {row[0]}: {row[2]} million diffuse rays per second."
-    return f"{peers.markdown()}\n{text}\n"
+    return text + "\n"
