@@ -228,7 +228,7 @@ ExitCode run(int argc, char **argv) {
     }
     Options &options = *parsed;
     check_outputs(options);
-    Scene scene = load_scene(options.scene, true, parse_defines(options.scene_options.defines));
+    Scene scene = load_scene(options.scene, true, options.scene_options);
     for (const std::string &assignment : options.assignments) {
         if (!set_scene_property(scene, assignment)) {
             throw input_error(fmt::format(
@@ -236,7 +236,7 @@ ExitCode run(int argc, char **argv) {
                 assignment));
         }
     }
-    change_scene(scene, options.scene_options);
+    change_view(scene, options.scene_options);
     set_film(options, scene);
     options.settings.camera = static_cast<size_t>(scene.active_camera());
     return options.engine == "embree" ? render_by_embree(options, scene)

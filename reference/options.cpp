@@ -129,7 +129,7 @@ std::optional<Options> parse_options(int argc, char **argv) {
                  "do nothing if the manifest lists the image with these settings and at least as "
                  "many samples")
         ->needs(manifest);
-    app.add_flag("--quiet", options.quiet, "do not print progress");
+    app.add_flag("-q,--quiet", options.quiet, "do not print progress");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &help) {

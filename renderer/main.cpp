@@ -111,8 +111,12 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
             last_save = SteadyClock::now();
         }
         if (options.preview && seconds_since(last_preview) > *options.preview) {
-            write_images(select_layers(session.develop(), options.layers), options.outputs,
-                         options.exposure);
+            try {
+                write_images(select_layers(session.develop(), options.layers), options.outputs,
+                             options.exposure);
+            } catch (const Error &error) {
+                notice(fmt::format("no preview: {}", error.what()));
+            }
             last_preview = SteadyClock::now();
         }
     };
@@ -236,10 +240,9 @@ void write_results(const RenderSession &session, const Options &options, bool co
 
 ExitCode run(Options &options) {
     require_consistent(options);
-    Scene scene =
-        load_scene(options.scene, options.quiet, parse_defines(options.scene_options.defines));
+    Scene scene = load_scene(options.scene, options.quiet, options.scene_options);
     apply_options(options, scene);
-    change_scene(scene, options.scene_options);
+    change_view(scene, options.scene_options);
     if (options.print_scene) {
         fmt::print("{}", options.json ? scene.describe_json() : scene.describe());
         return ExitCode::ok;
@@ -265,8 +268,9 @@ ExitCode run(Options &options) {
     write_results(session, options, complete);
     if (!complete) {
         fmt::print(stderr, "interrupted{}\n",
-                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
-                                         : "; continue with --resume --state " + options.state);
+                   options.state.empty()
+                       ? "; the samples are lost (--state FILM keeps what is done)"
+                       : "; continue with --resume --state " + options.state);
         return ExitCode::interrupted;
     }
     return ExitCode::ok;

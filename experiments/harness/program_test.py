@@ -283,7 +283,10 @@ class Program(ProgramTest):
             self.assertEqual(point["seconds_wall"], 0.5 * point["spp"])
             self.assertAlmostEqual(point["mse"] / same["mse"], 1, 5)
         self.assertEqual(self.call("report", out).returncode, 0)
+        self.refused(2, "another label", "add-curve", out, images, "--label", "Again-1 0")
         for text, broken in (
+                ("has 1 samples per pixel, but is listed with 4",
+                 [line.replace("4,1,2.0,1.4", "4,1,2.0,1.1") for line in lines]),
                 ("expected the columns", ["seed,spp,seconds,image", *lines[1:]]),
                 ("7 seeds; at least 8", [line for line in lines if ",8," not in line]),
                 ("other sample counts", lines[:-1]),
@@ -306,16 +309,33 @@ class Program(ProgramTest):
         missing = self.refused(4, "does not exist", *command).stderr
         script = "\n".join(line for line in missing.splitlines() if line.startswith("  "))
         self.assertEqual(script.count("--size 32x32"), 2)
-        script = script.replace("rtrays-reference", str(
-            pathlib.Path(PROGRAM).with_name("rtrays-reference")))
         subprocess.run(["sh", "-e", "-c", script], cwd=self.folder, check=True, capture_output=True)
         done = self.call(*command)
         self.assertEqual(done.returncode, 0, done.stderr)
         reported = self.call("report", "cornell_box.quick")
         self.assertEqual(reported.returncode, 0, reported.stderr)
         page = (self.folder / "cornell_box.quick/report.md").read_text()
-        self.assertIn("truncated BDPT, Sobol points", page)
+        self.assertIn("truncated BDPT with Sobol points", page)
         self.assertNotIn("thesis", page)
+
+    def test_another_renderer_resumes_with_the_same_samples(self):
+        """Fails at the twelfth image; the next run has the images of an uninterrupted one."""
+        count = self.folder / "count"
+        stop = f'echo >> {count}; [ "$(wc -l < {count})" -ne 12 ] || exit 9; '
+        experiment = json.loads(self.other_renderer().read_text())
+        command = experiment["curves"][0]["command"]
+        path = self.folder / "experiment.json"
+        runs = []
+        for script, code in ((command[2], [0]), (stop + command[2], [1, 0])):
+            command[2] = script
+            path.write_text(json.dumps(experiment))
+            out = self.folder / f"out{len(runs)}"
+            for expected in code:
+                done = self.call("run", path, "--out", out, "--quiet")
+                self.assertEqual(done.returncode, expected, done.stderr)
+            runs.append(json.loads((out / "run.json").read_text())["curves"][0])
+        for points in zip(*(run["points"] for run in runs), strict=True):
+            self.assertEqual(*([r["mse"] for r in point["repetitions"]] for point in points))
 
     def test_another_renderer_that_fails(self):
         done = self.call(
@@ -342,14 +362,16 @@ class Program(ProgramTest):
         self.assertEqual(done.returncode, 3, done.stderr)
         lines = done.stdout.splitlines()
         self.assertRegex(lines[0], "^ok   path_tracing.mis: agrees with the reference")
-        self.assertRegex(lines[1], "^FAIL planted 'nothing <much>' in path_tracing was not caught")
+        self.assertRegex(lines[1], "^FAIL planted 'nothing <much>' in path_tracing: not caught: ")
         self.assertEqual(lines[-1], "1 of 2 checks failed")
         self.assertEqual(
             [each["passed"] for each in json.loads((saved / "checks.json").read_text())["checks"]],
             [True, False])
         suite = xml.etree.ElementTree.parse(saved / "checks.xml").getroot()
         self.assertEqual((suite.get("tests"), suite.get("failures")), ("2", "1"))
-        self.assertIn("'nothing <much>'", suite.find("testcase/failure").get("message"))
+        self.assertIn("not caught", suite.find("testcase/failure").get("message"))
+        self.assertEqual([case.get("name") for case in suite],
+                         ["path_tracing.mis", "planted 'nothing <much>' in path_tracing"])
         self.refused(2, 'has no checks "bitwise"', "run", path, "--check", "bitwise")
         self.refused(2, "convergence", "run", path, "--update-baseline")
 
@@ -367,7 +389,8 @@ class Program(ProgramTest):
         self.assertEqual(done.returncode, 3, done.stderr)
         (check,) = json.loads((saved / "checks.json").read_text())["checks"]
         self.assertEqual(
-            check["images"], ["path_tracing.mis,max_depth=2.exr", "reference.exr"])
+            check["images"],
+            ["agreement.path_tracing.mis,max_depth=2.exr", "agreement.reference.exr"])
         for image in check["images"]:
             self.assertTrue((saved / image).exists())
 

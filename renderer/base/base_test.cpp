@@ -15,6 +15,8 @@
 #include "renderer/base/image.h"
 #include "renderer/base/named.h"
 #include "renderer/base/process.h"
+#include "renderer/base/shell.h"
+#include "renderer/base/suggestion.h"
 #include "renderer/testing/errors.h"
 
 namespace rtrays {
@@ -261,6 +263,25 @@ TEST(Commit, is_no_part_of_the_program_hash) {
     elsewhere.replace(elsewhere.find(commit()), commit().size(), commit().size(), '-');
     EXPECT_EQ(program_hash(), content_hash(elsewhere))
         << "the program must contain the commit exactly once";
+}
+
+TEST(Shell, QuotesWhatItWouldSplitOrExpand) {
+    EXPECT_EQ(in_shell("scenes/box-1_2.json"), "scenes/box-1_2.json");
+    EXPECT_EQ(in_shell("my scene.json"), "'my scene.json'");
+    EXPECT_EQ(in_shell("it's $HOME"), R"('it'\''s $HOME')");
+    EXPECT_EQ(in_shell(""), "''");
+    EXPECT_TRUE(std::filesystem::exists(sibling_program("base_test")));
+}
+
+TEST(Suggestion, IsTheNearestName) {
+    const std::vector<std::string> names = {"radius", "radiance", "max_depth", "spp"};
+    EXPECT_EQ(suggestion("max_dept", names), "did you mean 'max_depth'? ");
+    EXPECT_EQ(suggestion("radiuss", names), "did you mean 'radius'? ");
+    EXPECT_EQ(suggestion("raidance", names), "did you mean 'radiance'? ");
+    EXPECT_EQ(suggestion("colour", names), "");
+    EXPECT_EQ(suggestion("sp", names), "") << "two of three letters say little";
+    EXPECT_EQ(suggestion("", names), "");
+    EXPECT_EQ(suggestion("x", {}), "");
 }
 
 }  // namespace

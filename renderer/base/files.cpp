@@ -109,6 +109,14 @@ void write_file(const fs::path &path, const std::string &content) {
     });
 }
 
+void create_folder(const std::filesystem::path &path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) {
+        throw input_error(fmt::format("{}: cannot be created: {}", path.string(), error.message()));
+    }
+}
+
 void require_writable(const fs::path &path) {
     if (names_directory(path)) {
         throw input_error(fmt::format("{}: is a directory; name an output file", path.string()));

@@ -26,6 +26,9 @@ void write_atomically(const std::filesystem::path &path,
 /// when the disk is full.
 void write_file(const std::filesystem::path &path, const std::string &content);
 
+/// Creates a folder and those around it, unless they exist. Throws `Error` (bad usage) naming it.
+void create_folder(const std::filesystem::path &path);
+
 /// Throws `Error` (bad usage) if no file can be created at `path`. Called before a long run.
 void require_writable(const std::filesystem::path &path);
 

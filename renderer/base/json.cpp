@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -329,6 +330,13 @@ std::vector<std::string> explain(const Json &value, const std::vector<const Json
             }
         }
     }
+    for (const Json &pattern : gathered(nodes, "pattern")) {
+        const std::regex expression(pattern.get<std::string>());
+        if (value.is_string() && !std::regex_search(value.get<std::string>(), expression)) {
+            faults.push_back(
+                fmt::format("{} is not of the form {}", shown(value), pattern.get<std::string>()));
+        }
+    }
     const std::vector<Json> choices = gathered(nodes, "enum");
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
         faults.push_back(fmt::format("{} is not one of: {}", shown(value), listed(choices, ", ")));
@@ -336,28 +344,28 @@ std::vector<std::string> explain(const Json &value, const std::vector<const Json
     return faults;
 }
 
-/// An error of the validator: "[key]" from the root to the value, and a general reason.
-using SchemaError = valijson::ValidationResults::Error;
-
-/// Returns the errors whose values contain no other error. Every enclosing value repeats the errors
-/// of its members.
-std::vector<SchemaError> innermost(const valijson::ValidationResults &results) {
+/// Returns the errors by the path of their value, in the order of paths. An error is inner if its
+/// value contains no other one: every enclosing value repeats the errors of its members.
+struct LocatedError {
+    std::vector<std::string> context;
+    std::string reason;
+    bool is_inner = true;
+};
+std::vector<LocatedError> located(const valijson::ValidationResults &results) {
     std::map<std::vector<std::string>, std::string> reasons;
-    for (const SchemaError &error : results) {
+    for (const auto &error : results) {
         reasons.emplace(error.context, error.description);
     }
-    std::vector<SchemaError> causes;
-    for (auto entry = reasons.begin(); entry != reasons.end(); ++entry) {
-        // A prefix is sorted directly before what it begins.
-        const auto next = std::next(entry);
-        const bool is_prefix =
-            next != reasons.end() && next->first.size() > entry->first.size() &&
-            std::equal(entry->first.begin(), entry->first.end(), next->first.begin());
-        if (!is_prefix) {
-            causes.push_back({entry->first, entry->second});
+    std::vector<LocatedError> errors;
+    for (const auto &[context, reason] : reasons) {
+        if (!errors.empty()) {  // a prefix is sorted directly before what it begins
+            const std::vector<std::string> &before = errors.back().context;
+            errors.back().is_inner = before.size() >= context.size() ||
+                                     !std::equal(before.begin(), before.end(), context.begin());
         }
+        errors.push_back({context, reason});
     }
-    return causes;
+    return errors;
 }
 
 /// Most errors of a file that one message has. Each one is located by parsing the text again.
@@ -397,9 +405,8 @@ void validate_json(const Json &document, const std::string &schema_text,
         return;
     }
     std::vector<std::string> known, general;  // whether the schema's terms tell what is wrong
-    const std::vector<SchemaError> causes = innermost(results);
-    for (const SchemaError &error : causes) {
-        if (known.size() >= most_errors || general.size() >= 2 * most_errors) {
+    for (const LocatedError &error : located(results)) {
+        if (known.size() + general.size() >= 2 * most_errors) {
             break;
         }
         std::vector<std::string> path;
@@ -414,13 +421,20 @@ void validate_json(const Json &document, const std::string &schema_text,
                 value->is_array() ? &value->at(std::stoul(path.back())) : &value->at(path.back());
             name = name_of(*value) != nullptr ? name_of(*value) : name;
         }
+        const std::vector<std::string> faults =
+            explain(*value, schema_nodes(schema_document, path));
+        if (faults.empty() && !error.is_inner) {
+            continue;
+        }
         const std::string location =
             fmt::format("{}{}", json_location(source_name, text, pointer),
                         name != nullptr ? fmt::format(" (in '{}')", *name) : "");
-        for (const std::string &fault : explain(*value, schema_nodes(schema_document, path))) {
+        for (const std::string &fault : faults) {
             known.push_back(fmt::format("{}: {}", location, fault));
         }
-        general.push_back(fmt::format("{}: {}: {}", location, shown(*value), error.description));
+        if (faults.empty()) {
+            general.push_back(fmt::format("{}: {}: {}", location, shown(*value), error.reason));
+        }
     }
     // Alternatives that were not meant cause general errors beside the known ones.
     std::vector<std::string> &errors = known.empty() ? general : known;

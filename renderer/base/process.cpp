@@ -105,7 +105,9 @@ Process::Process(const std::vector<std::string> &command,
 }
 
 Process::~Process() {
-    close(to_);
+    if (to_ >= 0) {
+        close(to_);
+    }
     close(from_);
     if (process_ > 0) {
         kill(process_, SIGTERM);
@@ -115,6 +117,11 @@ Process::~Process() {
 
 bool Process::write(const std::string &text) {
     return ::write(to_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+void Process::end_input() {
+    close(to_);
+    to_ = -1;
 }
 
 std::optional<std::string> Process::read_line() {

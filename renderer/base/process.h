@@ -28,6 +28,9 @@ class Process {
     /// Writes the text; returns whether all of it could be written.
     bool write(const std::string &text);
 
+    /// Closes the standard input of the process, which reads its end.
+    void end_input();
+
     /// Returns the next line without its line end, or nothing after the program closed its output.
     std::optional<std::string> read_line();
 

@@ -82,8 +82,9 @@ TEST_F(Overlay, ErrorsNameFileLineAndAddress) {
     };
     expect_input_error("over.json:4: /set/luminaire.radiances: ",
                        load(",\n\"set\": {\n\"luminaire.radiances\": 3}"));
-    expect_input_error("'luminaire' has no property 'radiances'; properties are: ",
-                       load(",\n\"set\": {\n\"luminaire.radiances\": 3}"));
+    expect_input_error(
+        "'luminaire' has no property 'radiances'; did you mean 'radiance'? properties are: ",
+        load(",\n\"set\": {\n\"luminaire.radiances\": 3}"));
     expect_input_error("over.json:3: /set/luminaire.radiance: ",
                        load(",\n\"set\": {\"luminaire.radiance\": \"bright\"}"));
     expect_input_error("over.json:3: /camera: ", load(",\n\"camera\": \"nobody\""));
@@ -146,6 +147,15 @@ TEST_F(Import, ReadsModelsWithoutStandIns) {
     EXPECT_EQ(scene.cameras().name.size(), 1u);
     EXPECT_EQ(scene.lights().kind.size(), 1u);
     EXPECT_FALSE(scene.meshes().name.empty());
+}
+
+TEST_F(Import, ReadsMitsubaScenesWithoutSensors) {
+    write("part.xml", R"(<scene version="3.0.0"><shape type="sphere" id="ball"/></scene>)");
+    const Scene scene =
+        load_scene(write("all.json", frame + R"({"name": "part", "import": "part.xml"}]})"));
+    EXPECT_EQ(scene.arrays().shapes.name.size(), 1u);
+    EXPECT_EQ(scene.cameras().name.size(), 1u);
+    expect_input_error("no sensor", [&] { load_scene((folder_ / "part.xml").string()); });
 }
 
 TEST_F(Import, ErrorsNameBothFiles) {

@@ -66,11 +66,7 @@ Scene load_overlay(const Json &document, const SceneSource &source, const Loadin
     Scene scene = source.located(
         "/base", [&] { return load(source.file(document.at("base")), contained_in(loading)); });
     scene.set_name(document.value("name", name_of_file(source.name)));
-    for (const auto &[address, text] : property_texts(document.value("set", Json::object()))) {
-        const std::string at = (Json::json_pointer("/set") / address).to_string();
-        source.located(
-            at, [&, &address = address, &text = text] { scene.set_property(address, text); });
-    }
+    set_properties(scene, document, "", source);
     source.located("", [&] { scene.update(0); });
     if (document.contains("camera")) {
         source.located("/camera", [&] { scene.set_active_camera(document.at("camera")); });
@@ -93,7 +89,7 @@ Scene load(const std::filesystem::path &file, const Loading &loading) {
     const std::string text = read_file(file);
     if (is_mitsuba) {
         return parse_mitsuba_xml(text, path, name_of_file(file), file.parent_path(),
-                                 loading.defines);
+                                 loading.defines, loading.is_part);
     }
     if (file.extension() != ".json") {
         throw input_error(fmt::format(

@@ -10,6 +10,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/import/images/texture_file.h"
+#include "renderer/import/load_scene.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
 #include "renderer/scene/cores/transform.h"
@@ -114,7 +115,8 @@ void add_scene_options(CLI::App &app, SceneOptions &options) {
     app.add_option("--at", options.time, "scene time in seconds")->capture_default_str();
     app.add_option("--look-at", options.look_at,
                    "view of the camera: eye and target, each X,Y,Z in the scene's coordinates")
-        ->expected(2);
+        ->expected(2)
+        ->allow_extra_args(false);
     app.add_option("--fov", options.fov,
                    "angle of view in degrees, on the axis that the camera names")
         ->check(CLI::Range(0.0, 180.0));
@@ -140,10 +142,15 @@ bool set_scene_property(Scene &scene, const std::string &assignment) {
     return true;
 }
 
-void change_scene(Scene &scene, const SceneOptions &options) {
+Scene load_scene(const std::string &path, bool quiet, const SceneOptions &options) {
+    Scene scene = load_scene(path, quiet, parse_defines(options.defines));
     if (!options.environment.empty()) {
         set_environment(scene, options.environment);
     }
+    return scene;
+}
+
+void change_view(Scene &scene, const SceneOptions &options) {
     scene.update(options.time);
     if (!options.look_at.empty()) {
         look_from(camera_node(scene), parse_point(options.look_at.at(0)),

@@ -21,23 +21,26 @@ struct SceneOptions {
     double time = 0;                   ///< scene time, seconds
     std::vector<std::string> look_at;  ///< eye and target "X,Y,Z"; empty: the scene's view
     std::optional<double> fov;         ///< degrees; nothing: the scene's
-    std::string environment;           ///< image file; empty: the scene's
+    std::string environment;  ///< image file; replaces all uniform lights and images at infinity
 };
 
 /// Adds --at, --define, --environment, --fov and --look-at to the parser of a program.
 void add_scene_options(CLI::App &app, SceneOptions &options);
 
+/// Loads the scene of a file with its parameters and the environment of the options. Throws as
+/// `load_scene` does, and `Error` (bad usage) for the environment.
+Scene load_scene(const std::string &path, bool quiet, const SceneOptions &options);
+
 /// Sets the property that "scene.ADDRESS=VALUE" names. Returns false if the assignment does not
 /// start with "scene.". Throws `Error` (bad usage) naming the assignment.
 bool set_scene_property(Scene &scene, const std::string &assignment);
 
-/// Changes a scene by all options but `defines`, and updates it to their time. Throws `Error` (bad
-/// usage) naming the option.
+/// Changes the view by the options, and updates the scene to their time. Throws `Error` (bad usage)
+/// naming the option.
 ///
-/// * The environment replaces all lights at infinity that have an image or are uniform.
-/// * The camera keeps its roll: the axis of the scene file that is nearest to its upward direction
-///   stays upright. Its node moves with what is on it, and is not animated any more. Points are in
-///   the coordinates of the scene file.
-void change_scene(Scene &scene, const SceneOptions &options);
+/// The camera keeps its roll: the axis of the scene file that is nearest to its upward direction
+/// stays upright. Its node moves with what is on it, and is not animated any more. Points are in
+/// the coordinates of the scene file.
+void change_view(Scene &scene, const SceneOptions &options);
 
 }  // namespace rtrays

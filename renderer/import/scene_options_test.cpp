@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "renderer/base/files.h"
 #include "renderer/base/image.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/testing/errors.h"
@@ -50,7 +51,7 @@ void expect_direction(const Vector3d &found, const Vector3d &expected) {
 
 TEST(SceneOptions, LookAtPlacesTheCameraInTheCoordinatesOfTheScene) {
     Scene scene = scene_with();
-    change_scene(scene, looking("4,-3,6.5", "0,1,0"));
+    change_view(scene, looking("4,-3,6.5", "0,1,0"));
     const Matrix4d at = pose(scene);
     EXPECT_LT((at.block<3, 1>(0, 3) - Vector3d(4, -3, 6.5)).norm(), 1e-12);
     expect_direction(-at.block<3, 1>(0, 2), Vector3d(-4, 4, -6.5));
@@ -63,10 +64,10 @@ TEST(SceneOptions, LookAtKeepsTheUprightAxis) {
     Scene scene =
         scene_with(R"({"type": "dome", "radiance": [1, 1, 1]})",
                    R"({"type": "pinhole", "fov": 40, "fov_axis": "x"})", "[0.1, 0.05, -1]");
-    change_scene(scene, looking("5,0,0", "0,0,0"));
+    change_view(scene, looking("5,0,0", "0,0,0"));
     expect_direction(pose(scene).block<3, 1>(0, 1), -Vector3d::UnitZ());
     // Along the upright axis another one has to be upright.
-    change_scene(scene, looking("0,0,9", "0,0,0"));
+    change_view(scene, looking("0,0,9", "0,0,0"));
     expect_direction(-pose(scene).block<3, 1>(0, 2), -Vector3d::UnitZ());
 }
 
@@ -74,7 +75,7 @@ TEST(SceneOptions, FovIsThatOfTheCamera) {
     Scene scene = scene_with();
     SceneOptions options;
     options.fov = 25;
-    change_scene(scene, options);
+    change_view(scene, options);
     EXPECT_EQ(scene.hash(), [] {
         Scene other = scene_with();
         other.set_property("eye.fov", "25");
@@ -83,7 +84,7 @@ TEST(SceneOptions, FovIsThatOfTheCamera) {
     }());
     Scene flat = scene_with(R"({"type": "dome", "radiance": [1, 1, 1]})",
                             R"({"type": "orthographic", "size": 3, "size_axis": "x"})");
-    expect_input_error("--fov", [&] { change_scene(flat, options); });
+    expect_input_error("--fov", [&] { change_view(flat, options); });
 }
 
 TEST(SceneOptions, EnvironmentReplacesLightsAtInfinity) {
@@ -92,30 +93,36 @@ TEST(SceneOptions, EnvironmentReplacesLightsAtInfinity) {
     write_exr(image, sky);
     SceneOptions options;
     options.environment = sky;
-    Scene dome = scene_with();
-    change_scene(dome, options);
+    const auto load_with = [&](const std::string &light) {
+        const std::string path = testing::TempDir() + "scene_options.json";
+        write_file(path, R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "x"}},
+            {"name": "light", "light": )" +
+                             light + "}]}");
+        Scene scene = load_scene(path, true, options);
+        set_scene_property(scene, "scene.environment.scale=3");  // as --set does
+        change_view(scene, options);
+        return scene;
+    };
+    const Scene dome = load_with(R"({"type": "dome", "radiance": [1, 1, 1]})");
     ASSERT_EQ(dome.lights().kind.size(), 1u);
     EXPECT_EQ(dome.lights().kind.front(), LightArrays::Kind::environment);
     EXPECT_EQ(dome.lights().image.front()->width, 4);
-    Scene lamp = scene_with(R"({"type": "point", "intensity": [1, 1, 1]})");
-    change_scene(lamp, options);
-    EXPECT_EQ(lamp.lights().kind.size(), 2u) << "lamps stay";
-    set_scene_property(lamp, "scene.environment.scale=3");
-    change_scene(lamp, {});
-    EXPECT_EQ(lamp.lights().kind.size(), 2u);
-
+    EXPECT_EQ(load_with(R"({"type": "point", "intensity": [1, 1, 1]})").lights().kind.size(), 2u)
+        << "lamps stay";
     options.environment = sky + ".missing";
-    expect_input_error("--environment", [&] { change_scene(lamp, options); });
+    expect_input_error("--environment",
+                       [&] { load_with(R"({"type": "point", "intensity": [1, 1, 1]})"); });
 }
 
 TEST(SceneOptions, ErrorsNameTheOption) {
     for (const std::string text : {"1,2", "1,2,3,4", "1 2 3", "a,b,c", "1,2,", ""}) {
         Scene scene = scene_with();
         expect_input_error("--look-at '" + text + "': expected X,Y,Z",
-                           [&] { change_scene(scene, looking(text, "0,0,0")); });
+                           [&] { change_view(scene, looking(text, "0,0,0")); });
     }
     Scene scene = scene_with();
-    expect_input_error("--look-at", [&] { change_scene(scene, looking("1,2,3", "1,2,3")); });
+    expect_input_error("--look-at", [&] { change_view(scene, looking("1,2,3", "1,2,3")); });
     EXPECT_FALSE(set_scene_property(scene, "integrator.sampler=sobol"));
     expect_input_error("--set scene.eye.fov: expected NAME=VALUE",
                        [&] { set_scene_property(scene, "scene.eye.fov"); });

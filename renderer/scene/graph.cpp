@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/base/suggestion.h"
 #include "renderer/scene/cores/mesh.h"
 #include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
@@ -285,8 +286,7 @@ void SceneGraph::absorb(SceneGraph &other, Node &parent) {
         share(address.substr(0, name) + prefix + address.substr(name), holder);
     }
     other.shared_.clear();
-    while (!other.root_->children().empty()) {
-        std::unique_ptr<Node> child = other.root_->remove_child(*other.root_->children().front());
+    for (std::unique_ptr<Node> &child : other.root_->remove_children()) {
         child->add_prefix(prefix);
         parent.add_child(std::move(child));
     }
@@ -314,8 +314,9 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         for (const auto &named : shared_) {
             names.push_back(named.first);
         }
-        throw input_error(fmt::format("'{}': unknown node or shared object '{}'; the scene has: {}",
-                                      address, owner, some(names)));
+        throw input_error(
+            fmt::format("'{}': unknown node or shared object '{}'; {}the scene has: {}", address,
+                        owner, suggestion(owner, names), some(names)));
     }
     std::vector<std::string> names;
     for (const Property &property : properties) {
@@ -329,8 +330,8 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         }
         names.push_back(property.name);
     }
-    throw input_error(fmt::format("'{}': '{}' has no property '{}'; properties are: {}", address,
-                                  owner, name, some(names)));
+    throw input_error(fmt::format("'{}': '{}' has no property '{}'; {}properties are: {}", address,
+                                  owner, name, suggestion(name, names), some(names)));
 }
 
 void SceneGraph::visit_properties(

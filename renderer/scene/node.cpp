@@ -69,6 +69,16 @@ std::unique_ptr<Node> Node::remove_child(Node &child) {
     return removed;
 }
 
+std::vector<std::unique_ptr<Node>> Node::remove_children() {
+    for (const std::unique_ptr<Node> &child : children_) {
+        if (graph_ != nullptr) {
+            graph_->detach(*child);
+        }
+        child->parent_ = nullptr;
+    }
+    return std::exchange(children_, {});
+}
+
 void Node::set_core(std::shared_ptr<Core> core) {
     const CoreRole role = core->role();
     remove_core(role);

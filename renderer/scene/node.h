@@ -35,6 +35,9 @@ class Node {
     /// The node must be in no graph.
     void add_prefix(const std::string &prefix);
 
+    /// Removes all children, as `remove_child` does, and returns them in their order.
+    std::vector<std::unique_ptr<Node>> remove_children();
+
     /// Removes a child from the graph, frees its records in the stores and returns it to the
     /// caller.
     std::unique_ptr<Node> remove_child(Node &child);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "renderer/base/error.h"
+#include "renderer/base/suggestion.h"
 #include "renderer/session/setting_table.h"
 
 namespace rtrays {
@@ -54,9 +55,9 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
         }
         names.push_back(setting.name);
     }
-    throw input_error(fmt::format("{} '{}'; settings are: {}",
+    throw input_error(fmt::format("{} '{}'; {}settings are: {}",
                                   is_assignment ? "unknown setting" : "expected NAME=VALUE, got",
-                                  name, fmt::join(names, ", ")));
+                                  name, suggestion(name, names), fmt::join(names, ", ")));
 }
 
 nlohmann::json image_settings(const RenderSettings &requested) {

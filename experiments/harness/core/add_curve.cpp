@@ -115,6 +115,18 @@ void require_ladders(const ListedImages &images, const fs::path &list) {
     }
 }
 
+/// Throws `Error` (bad input) if an image says that it has another number of samples per pixel.
+void require_samples(const Image &image, uint64_t spp, const fs::path &file) {
+    if (image.has("samples")) {
+        const auto &samples = image.channel("samples");
+        const float most = *std::max_element(samples.begin(), samples.end());
+        if (most != static_cast<float>(spp)) {
+            throw input_error(fmt::format("{}: has {} samples per pixel, but is listed with {}",
+                                          file.string(), most, spp));
+        }
+    }
+}
+
 Json load_run(const fs::path &path) {
     Json document = parse_document(read_file(path), path.string());
     if (document.at("kind") != "curves") {
@@ -135,19 +147,34 @@ fs::path add_curve(const AddCurveOptions &options) {
     const FirstHits first_hits = first_hits_of(
         read_exr(options.run / document.at("first_hits").at("image").get<std::string>()));
 
+    const std::string id = "added." + file_name_of(options.label);
+    for (const Json &other : document.at("curves")) {
+        const bool is_same = other.at("id") == id;
+        if (is_same != (other.value("label", "") == options.label)) {
+            throw input_error(fmt::format(
+                "--label '{}': the run has another curve '{}' of this name, or with equal file "
+                "names; choose another label",
+                options.label, other.at("id").get<std::string>()));
+        }
+    }
     std::vector<Repetition> repetitions;
-    std::vector<Image> last;  // of each seed
+    std::vector<Image> last;          // of each seed
+    std::map<uint64_t, Image> early;  // of the first seed
     for (const auto &[seed, ladder] : images) {
         Repetition &repetition = repetitions.emplace_back();
         repetition.seed = seed;
         for (const auto &[spp, listed] : ladder) {
             const Image image = read_exr(listed.file);
+            require_samples(image, spp, listed.file);
             try {
                 repetition.points.push_back({spp, listed.seconds, listed.seconds,
                                              compute_metrics(image, reference),
                                              divide_mse(image, reference, first_hits)});
             } catch (const Error &error) {
                 throw input_error(fmt::format("{}: {}", listed.file.string(), error.what()));
+            }
+            if (repetitions.size() == 1) {
+                early[spp] = image;
             }
             if (spp == ladder.rbegin()->first) {
                 last.push_back(image);
@@ -156,23 +183,31 @@ fs::path add_curve(const AddCurveOptions &options) {
     }
     const AgreementPolicy policy;
     Json curve = summarise_curve(repetitions, document.at("reference").at("noise_floor").at("mse"));
-    curve["id"] = "added." + file_name_of(options.label);
+    curve["id"] = id;
     curve["label"] = curve["engine"] = options.label;
     curve["scene"] = document.at("curves").at(0).at("scene");
     curve["agreement"] = to_json(test_agreement(last, reference, policy), policy);
-    curve["image"] = fmt::format("images/{}.exr", curve["id"].get<std::string>());
+    curve["image"] = fmt::format("images/{}.exr", id);
     curve["image_spp"] = images.begin()->second.rbegin()->first * images.size();
     curve["layers"] = curve["early_images"] = Json::array();
-    write_exr(average_images(last), options.run / curve["image"].get<std::string>());
+    for (const auto &entry : early) {
+        curve["early_images"].push_back(
+            {{"spp", entry.first}, {"image", fmt::format("images/{}.{}spp.exr", id, entry.first)}});
+    }
 
     Json curves = Json::array({curve});
     for (const Json &other : document.at("curves")) {
-        if (other.at("id") != curve["id"]) {
+        if (other.at("id") != id) {
             curves.push_back(other);
         }
     }
     document["curves"] = curves;
     parse_document(document.dump(), path.string());
+    write_exr(average_images(last), options.run / curve["image"].get<std::string>());
+    for (const Json &entry : curve["early_images"]) {
+        write_exr(early.at(entry.at("spp").get<uint64_t>()),
+                  options.run / entry.at("image").get<std::string>());
+    }
     write_file(path, document.dump(1) + "\n");
     return path;
 }

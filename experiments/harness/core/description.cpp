@@ -112,7 +112,11 @@ CurveDescription parse_curve(const Json &curve, const std::string &location) {
     if (curve.contains("engine")) {
         description.other = parse_other_renderer(curve, location);
     } else if (curve.contains("algorithm")) {
-        description.settings = parse_render_settings(curve);
+        try {
+            description.settings = parse_render_settings(curve);
+        } catch (const Error &error) {
+            throw input_error(fmt::format("{}: {}", location, error.what()));
+        }
     } else {
         throw input_error(fmt::format(
             "{}: expected an \"algorithm\" of this renderer or the \"engine\" of another one",

@@ -141,12 +141,11 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
     });
     const auto usable = static_cast<size_t>(first_noisy - points.begin());
     if (usable < 3) {
-        // The noise must be a tenth of the MSE (`noise_dominates`), and falls as one over samples.
         const double third = points.at(2).at("mse").get<double>();
         throw run_error(fmt::format(
             "the reference is too noisy (its own RMSE is {:.3g}): only {} of {} points have errors "
             "well above its noise; three of them need a reference with {:.2g} times the samples",
-            std::sqrt(noise_mse), usable, points.size(), 11 * noise_mse / third));
+            std::sqrt(noise_mse), usable, points.size(), missing_samples(third, noise_mse)));
     }
     return {{"points", points},
             {"slope", slope_of(repetitions, usable, 0)},

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,13 @@ inline double unbiased_mse(double mse, double noise_mse) {
 /// Returns whether the reference is too noisy to judge an error: its noise exceeds 10 % of the MSE.
 inline bool noise_dominates(double mse, double noise_mse) {
     return !(noise_mse <= 0.1 * mse);
+}
+
+/// Returns how many times the samples the reference needs at least, so that its noise no longer
+/// dominates: its noise falls as one over its samples. Infinite if the MSE is that of the noise.
+inline double missing_samples(double mse, double noise_mse) {
+    const double own = unbiased_mse(mse, noise_mse);
+    return own > 0 ? 9 * noise_mse / own : std::numeric_limits<double>::infinity();
 }
 
 /// Averages independent images with equal sample counts. "variance.*" becomes the variance of the

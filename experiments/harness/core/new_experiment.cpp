@@ -10,6 +10,7 @@
 #include "experiments/harness/core/description.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/shell.h"
 #include "renderer/import/load_scene.h"
 
 namespace rtrays {
@@ -18,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
+
+/// Pixels of the first experiment and gate, which share a reference.
+constexpr double first_pixels = 128 * 128;
 
 /// Returns a size of about `pixels` with the film's proportions.
 OrderedJson size_like(const Scene &scene, double pixels) {
@@ -44,12 +48,15 @@ OrderedJson curves_of(const Scene &scene) {
             {"reference", {{"folder", "references"}, {"engine", "embree"}}},
             {"curves",
              {curve("truncated_bdpt", "independent", "truncated BDPT"),
-              curve("truncated_bdpt", "sobol", "truncated BDPT, Sobol points"),
-              curve("path_tracing", "sobol", "path tracing, Sobol points"),
+              curve("truncated_bdpt", "sobol", "truncated BDPT with Sobol points"),
+              curve("path_tracing", "sobol", "path tracing with Sobol points"),
               curve("path_tracing", "independent", "path tracing")}},
             {"profiles",
              {{"quick",
-               {{"size", size_like(scene, 128 * 128)}, {"spp", {1, 2, 4, 8, 16}}, {"seeds", 8}}}}}};
+               {{"size", size_like(scene, first_pixels)},
+                {"spp", {1, 2, 4, 8, 16}},
+                {"seeds", 8},
+                {"early_images", {4, 16}}}}}}};
 }
 
 OrderedJson gate_of(const Scene &scene) {
@@ -59,7 +66,7 @@ OrderedJson gate_of(const Scene &scene) {
             {"name", file_name_of(scene.name())},
             {"scene", ""},
             {"reference", {{"folder", "references"}, {"engine", "embree"}}},
-            {"size", size_like(scene, 64 * 64)},
+            {"size", size_like(scene, first_pixels)},
             {"curves", curves},
             {"agreement", {{"spp", 256}}}};
 }
@@ -77,15 +84,16 @@ std::string write_new_experiment(const NewExperimentOptions &options) {
     }
     const fs::path folder = fs::absolute(file).parent_path();
     experiment["scene"] = fs::relative(options.scene, folder).string();
-    fs::create_directories(folder);
+    create_folder(folder);
     write_file(file, experiment.dump(2) + "\n");
+    const std::string program = in_shell(sibling_program("rtrays-experiment"));
     const std::string run = fmt::format(
         "wrote {0}\n"
-        "  rtrays-experiment run {0}    prints the commands that render its reference, then {1}\n",
-        file.string(), options.is_gate ? "checks" : "measures");
-    return options.is_gate
-               ? run
-               : run + fmt::format("  rtrays-experiment report {}.quick    makes its page\n", name);
+        "  {1} run {2}\n"
+        "prints the commands that render its reference, and then {3}",
+        file.string(), program, in_shell(file),
+        options.is_gate ? "checks\n" : "measures; its page comes from\n");
+    return options.is_gate ? run : run + fmt::format("  {} report {}.quick\n", program, name);
 }
 
 }  // namespace rtrays

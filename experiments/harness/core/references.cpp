@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <cstring>
+#include <vector>
 
 #include "reference/manifest.h"
 #include "renderer/base/error.h"
 #include "renderer/base/json.h"
+#include "renderer/base/shell.h"
 
 namespace rtrays {
 
@@ -30,33 +29,35 @@ bool is_of_repository(const ReferenceRequest &request) {
     return request.folder.parent_path().filename() == "results";
 }
 
-/// Returns a path as one word of a shell's command line.
-std::string in_shell(const fs::path &path) {
-    const std::string text = path.string();
-    const bool is_plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::strchr("_./-+,=:@%", c) != nullptr;
-    });
-    std::string quoted = "'";
-    for (const char c : text) {
-        quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-    return is_plain && !text.empty() ? text : quoted + "'";
-}
-
-/// Returns the error of missing halves, with the commands that render them. Smaller films are
-/// averaged from larger ones, so a reference of one's own has the size of the experiment.
+/// Returns the error of missing halves, with the commands that render them. Both halves must have
+/// the same size and samples, so a missing one copies those of the other.
 Error missing(const ReferenceRequest &request, const Json &listed, const std::string &what) {
     const fs::path manifest = request.folder / "manifest.json";
-    std::string commands = fmt::format("  mkdir -p {}\n", in_shell(request.folder));
+    // Smaller films are averaged from larger ones: references of the repository have the scene's
+    // size, and those of one's own that of the experiment.
+    std::string size = is_of_repository(request)
+                           ? ""
+                           : fmt::format(" --size {}x{}", request.width, request.height);
+    uint64_t spp = 16384;
+    std::vector<size_t> wanted;
     for (size_t half = 0; half < halves.size(); ++half) {
-        const fs::path path = request.folder / file_name(request, half);
-        if (!fs::exists(path) || !listed.contains(path.filename().string())) {
-            commands += fmt::format(
-                "  rtrays-reference {} -o {} --engine {} --spp 16384 --size {}x{} --seed {} "
-                "--manifest {}\n",
-                in_shell(request.scene_path), in_shell(path), request.engine, request.width,
-                request.height, half + 1, in_shell(manifest));
+        const std::string name = file_name(request, half);
+        if (!fs::exists(request.folder / name) || !listed.contains(name)) {
+            wanted.push_back(half);
+        } else {
+            const Json &other = listed.at(name);
+            size = fmt::format(" --size {}x{}", other.at("width").get<int>(),
+                               other.at("height").get<int>());
+            other.at("spp").get_to(spp);
         }
+    }
+    std::string commands = fmt::format("  mkdir -p {}\n", in_shell(request.folder));
+    for (const size_t half : wanted) {
+        commands +=
+            fmt::format("  {} {} -o {} --engine {} --spp {}{} --seed {} --manifest {}\n",
+                        in_shell(sibling_program("rtrays-reference")), in_shell(request.scene_path),
+                        in_shell(request.folder / file_name(request, half)), request.engine, spp,
+                        size, half + 1, in_shell(manifest));
     }
     return {ExitCode::reference_missing,
             fmt::format("{}; render it with:\n{}{}", what, commands,

@@ -105,7 +105,7 @@ TEST_F(StoredReferences, AMissingHalfNamesTheCommand) {
     EXPECT_EQ(error_code(request(), "box.embree.b.exr"), ExitCode::reference_missing);
     store("a", 1);
     EXPECT_EQ(
-        error_code(request(), "box.embree.b.exr --engine embree --spp 16384 --size 8x8 --seed 2"),
+        error_code(request(), "box.embree.b.exr --engine embree --spp 64 --size 8x8 --seed 2"),
         ExitCode::reference_missing);
 }
 

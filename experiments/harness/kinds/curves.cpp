@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/host.h"
@@ -246,13 +249,25 @@ class Curves : public Experiment {
         Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
         SharedScenes scenes(scene_, bench.device);
+        const auto source_of = [&](const CurveDescription &curve) {
+            const RenderSettings settings = settings_of(description_, curve);
+            return curve.other ? other_source(curve, description_.scene, settings,
+                                              bench.parts / ("other." + curve.id()))
+                               : session_source(scenes, settings);
+        };
+        // Other renderers start before anything is measured, so that a missing one is an error now.
+        std::map<std::string, std::unique_ptr<CurveSource>> others;
+        for (const CurveDescription &curve : description_.curves) {
+            if (curve.other) {
+                others[curve.id()] = source_of(curve);
+            }
+        }
         Json curves = Json::array();
         for (const CurveDescription &curve : description_.curves) {
             const RenderSettings settings = settings_of(description_, curve);
             const auto make_source = [&] {
-                return curve.other ? other_source(curve, description_.scene, settings,
-                                                  bench.parts / "other_renderer")
-                                   : session_source(scenes, settings);
+                auto started = others.extract(curve.id());
+                return started.empty() ? source_of(curve) : std::move(started.mapped());
             };
             const LadderTask task{curve.id(),
                                   make_source,

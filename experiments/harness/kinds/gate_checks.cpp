@@ -200,7 +200,7 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
                     fmt::format("{} at {} spp: the reference's own noise exceeds 10 % of the mean "
                                 "squared error; the reference needs at least {:.1f} times the "
                                 "samples",
-                                curve.id(), spp, 10 * reference.noise_mse / error.mse));
+                                curve.id(), spp, missing_samples(error.mse, reference.noise_mse)));
             }
             errors[spp].push_back(error.rmse);
         }

@@ -107,8 +107,9 @@ LadderResult render_ladders(const LadderTask &task) {
 }
 
 std::vector<Image> render_fresh_batches(const LadderTask &task) {
-    return task.make_source()->independent_images(
-        first_seed + task.seeds, 2 * task.spp.back() * task.seeds, batches_per_seed * task.seeds);
+    const uint64_t count = (task.has_batches ? batches_per_seed : 1) * task.seeds;
+    return task.make_source()->independent_images(first_seed + task.seeds,
+                                                  2 * task.spp.back() * task.seeds, count);
 }
 
 }  // namespace rtrays

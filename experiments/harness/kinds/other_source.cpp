@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "experiments/harness/core/resumption.h"
 #include "experiments/harness/kinds/curve_source.h"
 #include "experiments/harness/kinds/measurements/peer.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/base/process.h"
-#include "renderer/base/progress.h"
 #include "renderer/import/load_scene.h"
 
 namespace rtrays {
@@ -51,8 +55,8 @@ class InstalledRenderer : public Program {
         peer_.emplace(scene, folder, kind);
         if (!peer_->is_there()) {
             throw Error(ExitCode::skipped,
-                        fmt::format("{} is not installed; run scripts/install --peers, or remove "
-                                    "its curve",
+                        fmt::format("{} does not start; scripts/install --peers installs Mitsuba "
+                                    "3 and Cycles",
                                     Peer::name_of(kind)));
         }
     }
@@ -92,22 +96,30 @@ class Command : public Program {
         for (const std::string &word : words_) {
             command.push_back(filled(word));
         }
+        fs::remove(request.output);  // of an interrupted run
         const auto start = SteadyClock::now();
         Process process(command);
+        process.end_input();
         std::optional<double> reported;
         while (const auto line = process.read_line()) {
             const auto record = nlohmann::json::parse(*line, nullptr, false);
             if (record.is_object() && record.value("seconds", nlohmann::json()).is_number()) {
                 reported = record.at("seconds").get<double>();
+                if (!(*reported > 0)) {
+                    throw run_error(fmt::format("'{}' reported {} seconds", name_, *reported));
+                }
             }
         }
         if (const int code = process.wait(); code != 0) {
-            throw run_error(
-                fmt::format("'{}' ended with exit code {}: {}", name_, code, in_words(command)));
+            constexpr int not_found = 127;
+            throw run_error(fmt::format(
+                "'{}' {}: {}", name_,
+                code == not_found ? "was not found" : fmt::format("ended with exit code {}", code),
+                fmt::join(command, " ")));
         }
         if (!fs::exists(request.output)) {
-            throw run_error(
-                fmt::format("'{}' wrote no image to {{output}}: {}", name_, in_words(command)));
+            throw run_error(fmt::format("'{}' wrote no image to {{output}}: {}", name_,
+                                        fmt::join(command, " ")));
         }
         return reported.value_or(seconds_since(start));
     }
@@ -127,14 +139,6 @@ class Command : public Program {
         return word;
     }
 
-    static std::string in_words(const std::vector<std::string> &command) {
-        std::string text;
-        for (const std::string &word : command) {
-            text += (text.empty() ? "" : " ") + word;
-        }
-        return text;
-    }
-
     std::string name_;
     std::vector<std::string> words_;
     std::map<std::string, std::string> places_;
@@ -145,7 +149,7 @@ class OtherSource : public CurveSource {
     OtherSource(const CurveDescription &curve, const fs::path &scene_file,
                 const RenderSettings &settings, fs::path folder)
         : width_(settings.width), height_(settings.height), folder_(std::move(folder)) {
-        fs::create_directories(folder_);
+        create_folder(folder_);
         if (curve.other->engine == "command") {
             program_ = std::make_unique<Command>(curve, scene_file, settings);
         } else {
@@ -170,16 +174,16 @@ class OtherSource : public CurveSource {
         const bool is_first = program_->compiles_by_count() ? warm_.insert(spp).second
                                                             : std::exchange(is_cold_, false);
         if (is_first) {
-            render(spp);
+            render(spp, warm_up_seed);
         }
-        return render(spp);
+        return render_next(spp);
     }
 
     std::vector<Image> independent_images(uint32_t seed, uint64_t spp, uint64_t count) override {
         std::vector<Image> images;
         for (uint64_t i = 0; i < count; ++i) {
             restart(seed + static_cast<uint32_t>(i));
-            images.push_back(render(spp / count).image);
+            images.push_back(render_next(spp / count).image);
         }
         return images;
     }
@@ -187,18 +191,25 @@ class OtherSource : public CurveSource {
     nlohmann::json description() const override { return {{"engine", program_->name()}}; }
 
   private:
-    /// Renders an image with a seed that no other one has.
-    TimedImage render(uint64_t spp) {
-        if (interrupted()) {
-            throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
+    static constexpr uint32_t warm_up_seed = 1;
+    static constexpr uint32_t most_images = 1000;  ///< of one seed
+
+    /// Renders the next image of a seed. No other image has its seed.
+    TimedImage render_next(uint64_t spp) { return render(spp, seed_ * most_images + images_++); }
+
+    TimedImage render(uint64_t spp, uint32_t seed) {
+        require_not_interrupted();
+        const Request request{spp, seed, folder_ / "image.exr"};
+        try {
+            const double seconds = program_->render(request);
+            TimedImage rendered{read_exr(request.output), seconds, seconds};
+            fs::remove(request.output);
+            require_picture(rendered.image);
+            return rendered;
+        } catch (const Error &) {
+            require_not_interrupted();  // Ctrl-C also ends the program, which then fails
+            throw;
         }
-        constexpr uint32_t most_images = 1000;  // of one seed
-        const Request request{spp, seed_ * most_images + images_++, folder_ / "image.exr"};
-        const double seconds = program_->render(request);
-        TimedImage rendered{read_exr(request.output), seconds, seconds};
-        fs::remove(request.output);
-        require_picture(rendered.image);
-        return rendered;
     }
 
     void require_picture(const Image &image) const {

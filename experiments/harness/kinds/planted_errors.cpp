@@ -36,7 +36,7 @@ std::string describe(const Agreement &agreement) {
 }
 
 CheckLine caught_line(const PlantedError &error, bool caught, const std::string &detail) {
-    return {fmt::format("planted '{}' in {} was {}caught: {}", error.name,
+    return {fmt::format("planted '{}' in {}: {}caught: {}", error.name,
                         error.settings.algorithm->name, caught ? "" : "not ", detail),
             caught};
 }

@@ -13,6 +13,7 @@
 #include "embedded/scene_schemas.h"
 #include "renderer/base/error.h"
 #include "renderer/base/json.h"
+#include "renderer/base/suggestion.h"
 #include "renderer/import/json/geometry.h"
 #include "renderer/import/json/material.h"
 #include "renderer/import/json/transform.h"
@@ -101,9 +102,9 @@ class SceneReader {
             for (const auto &entry : shared) {
                 names.push_back(entry.first);
             }
-            throw input_error(
-                fmt::format("unknown {} '{}'; the scene defines: {}", what, name,
-                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+            throw input_error(fmt::format(
+                "unknown {} '{}'; {}the scene defines: {}", what, name, suggestion(name, names),
+                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
         }
         return found->second;
     }
@@ -199,11 +200,7 @@ class SceneReader {
             }
             return options_.load_import(source_.file(value.at("import")));
         });
-        for (const auto &[address, text] : property_texts(value.value("set", Json::object()))) {
-            const std::string at = (Json::json_pointer(path + "/set") / address).to_string();
-            source_.located(
-                at, [&, &address = address, &text = text] { part.set_property(address, text); });
-        }
+        set_properties(part, value, path, source_);
         source_.located(path, [&] { scene_.graph().absorb(part.graph(), node); });
     }
 

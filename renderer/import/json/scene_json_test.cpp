@@ -141,9 +141,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "in.json:5: /nodes/1/name: 'a.b': a name must not contain a dot"},
         BadScene{R"({"name": "eye"})", "in.json:5: /nodes/1/name: two nodes have the name 'eye'"},
         BadScene{R"({"name": "a", "geometry": "tiles", "material": "white"})",
-                 "in.json:5: /nodes/1/geometry: unknown geometry 'tiles'; the scene defines: tile"},
+                 "in.json:5: /nodes/1/geometry: unknown geometry 'tiles'; did you mean 'tile'? the "
+                 "scene defines: tile"},
         BadScene{R"({"name": "a", "geometry": "tile", "material": "whit"})",
-                 "in.json:5: /nodes/1/material: unknown material 'whit'; the scene defines: white"},
+                 "in.json:5: /nodes/1/material: unknown material 'whit'; did you mean 'white'? the "
+                 "scene defines: white"},
         BadScene{R"({"name": "a", "geometry": "tile"})", "mesh 'a' has no material"},
         BadScene{R"({"name": "a", "material": {"type": "phong", "reflectance": [0, 0, 0]}})",
                  "/nodes/1/material/type (in 'a'): \"phong\" is not one of: lambert"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/json/values.h"
+#include "renderer/scene/scene.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,12 +50,15 @@ bool contains(const std::vector<std::string> &names, const std::string &name) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> property_texts(const Json &set) {
-    std::vector<std::pair<std::string, std::string>> texts;
-    for (const auto &[address, value] : set.items()) {
-        texts.emplace_back(address, value.is_string() ? value.get<std::string>() : value.dump());
+void set_properties(Scene &scene, const Json &object, const std::string &pointer,
+                    const SceneSource &source) {
+    const Json set = object.contains("set") ? object.at("set") : Json::object();
+    for (const auto &entry : set.items()) {
+        const Json &value = entry.value();
+        const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+        source.located((Json::json_pointer(pointer + "/set") / entry.key()).to_string(),
+                       [&] { scene.set_property(entry.key(), text); });
     }
-    return texts;
 }
 
 Eigen::Vector3d vector3(const Json &value) {

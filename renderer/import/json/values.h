@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
@@ -16,6 +15,8 @@
 #include "renderer/scene/parameters.h"
 
 namespace rtrays {
+
+class Scene;
 
 /// The document that a scene is read from.
 struct SceneSource {
@@ -49,8 +50,10 @@ struct SceneSource {
 
 Eigen::Vector3d vector3(const Json &value);
 
-/// Returns address and text of every property that a "set" of a scene file changes.
-std::vector<std::pair<std::string, std::string>> property_texts(const Json &set);
+/// Sets the properties of a scene that the "set" of the object at `pointer` names, if it has one.
+/// Throws `Error` (bad input) naming the line and the address.
+void set_properties(Scene &scene, const Json &object, const std::string &pointer,
+                    const SceneSource &source);
 
 /// Converts `value` to the type of the parameter. A single number sets all components of a vector
 /// of two or three. Throws `Error` (bad input) if the type does not match.

@@ -47,7 +47,7 @@ class SceneReader {
         tell();
     }
 
-    void finish() {
+    void finish(bool is_part) {
         try {
             scene_.update(0);
             scene_.recentre();
@@ -55,6 +55,9 @@ class SceneReader {
             throw input_error(fmt::format("{}: {}", source_name_, error.what()));
         }
         if (cameras_.empty()) {
+            if (is_part) {
+                return;
+            }
             throw input_error(fmt::format("{}: the scene has no sensor; add one", source_name_));
         }
         scene_.set_active_camera(cameras_.front());
@@ -367,13 +370,13 @@ const SceneReader::Handler SceneReader::handlers[8] = {
 
 Scene parse_mitsuba_xml(const std::string &text, const std::string &source_name,
                         const std::string &default_name, const std::filesystem::path &directory,
-                        const std::map<std::string, std::string> &defines) {
+                        const std::map<std::string, std::string> &defines, bool is_part) {
     const Document document(text, source_name, directory, defines);
     Scene scene;
     scene.set_name(default_name);
     SceneReader reader(document, source_name, scene);
     reader.read();
-    reader.finish();
+    reader.finish(is_part);
     return scene;
 }
 

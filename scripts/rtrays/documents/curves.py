@@ -118,9 +118,13 @@ def has_pilot(curve):
     return "pilot" in curve.get("render_report", {})
 
 
-def pilot_seconds(curve):
-    """Returns the device time of the pilot; zero without one."""
-    return value(curve, "render_report.pilot.seconds") if has_pilot(curve) else 0.0
+def pilot_seconds(curve, clock="device"):
+    """Returns the time of the pilot by a clock; zero without one. Documents of version 0.1.0 have
+    only the device time, which counts as the other one."""
+    if not has_pilot(curve):
+        return 0.0
+    key = "seconds" if clock == "device" or lacks_wall_time_of_pilot(curve) else "seconds_wall"
+    return value(curve, f"render_report.pilot.{key}")
 
 
 def lacks_wall_time_of_pilot(curve):

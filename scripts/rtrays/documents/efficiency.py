@@ -38,7 +38,7 @@ class Cost:
             )
         point = points[-1]
         self.spp = value(point, "spp")
-        self.pilot_seconds = pilot_seconds(curve)
+        self.pilot_seconds = pilot_seconds(curve, clock)
         self.exponent = exponent(curve)
         repetitions = value(point, "repetitions")
         self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise

@@ -3,6 +3,7 @@
 
 import numpy
 
+from rtrays.documents.curves import is_other, label, seconds
 from rtrays.documents.document import RunError, value
 
 METRICS = {
@@ -14,23 +15,34 @@ METRICS = {
     "mse_clipped": "MSE of values clipped at 1",
 }
 CLOCKS = ("device", "wall")
-# Share of the seeds that a band or an interval has.
+# Quantiles of the seeds between which a band or an interval is.
 CENTRE = (0.025, 0.975)
 
 
-def chosen_curves(run, ids):
-    """Returns the curves with these ids, in this order, or all without ids."""
-    by_id = {value(curve, "id"): curve for curve in run.curves}
-    unknown = [name for name in ids if name not in by_id]
+def chosen_curves(run, names):
+    """Returns the curves with these ids or labels, in this order, or all without names."""
+    known = {value(curve, "id"): curve for curve in run.curves}
+    known.update((label(curve), curve) for curve in run.curves)
+    unknown = [name for name in names if name not in known]
     if unknown:
         raise RunError(
             f"{run.folder / 'run.json'}: unknown curve '{unknown[0]}'; curves are:"
-            f" {', '.join(by_id)}"
+            f" {'; '.join(label(curve) for curve in run.curves)}"
         )
-    return [by_id[name] for name in ids] if ids else run.curves
+    return [known[name] for name in names] if names else run.curves
 
 
-def spread(point, metric):
-    """Returns median and central 95 % of the seeds of a point: (value, low, high)."""
-    sample = [value(repetition, metric) for repetition in value(point, "repetitions")]
+def spread(sample):
+    """Returns median and central 95 % of the values of the seeds: (value, low, high)."""
     return (float(numpy.median(sample)), *map(float, numpy.quantile(sample, CENTRE)))
+
+
+def of_seeds(curve, point, quantity):
+    """Returns a metric, or the seconds by a clock ("device" or "wall"), of every seed of a point;
+    empty if the document does not have it."""
+    repetitions = value(point, "repetitions")
+    if quantity not in CLOCKS:
+        return [repetition[quantity] for repetition in repetitions if quantity in repetition]
+    if quantity == "device" and is_other(curve):
+        return []
+    return [seconds(curve, repetition, quantity) for repetition in repetitions]

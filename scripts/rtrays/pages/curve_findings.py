@@ -43,7 +43,8 @@ def explanation(run):
         f"For equal error {label(base)} needs {times(ratio(usual, ours, 'spp'))} times as many"
         f" samples as {label(curve)}. A sample of {label(curve)} takes"
         f" {ours.seconds / usual.seconds:.2f} times as much {clock_of(run)} time; its light pass is"
-        f" {100 * share_of_pass(curve, 'light'):.0f} % of that."
+        f" {100 * share_of_pass(curve, 'light'):.0f} % of"
+        f" {'that' if clock_of(run) == 'device' else 'its device time'}."
     )
     full = curve_named(run, "bdpt.mis")
     if full is not None:

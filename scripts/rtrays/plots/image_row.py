@@ -5,7 +5,7 @@ and their errors in false colours."""
 import textwrap
 
 import numpy
-from matplotlib import patches, pyplot
+from matplotlib import colormaps, patches, pyplot
 from matplotlib.colors import LogNorm
 
 from rtrays.documents.curves import clock_of, label, seconds
@@ -26,35 +26,29 @@ def kept_images(run, curve):
 
 
 def image_near(run, curve, time):
-    """Returns (samples per pixel, seconds, linear image) of the kept image whose seconds are
-    nearest to `time` by their ratio; the latest one without a time."""
+    """Returns (measurement, linear image) of the kept image whose seconds are nearest to `time` by
+    their ratio; the latest one without a time. The measurement has samples, seconds and errors."""
     kept = kept_images(run, curve)
-    if not kept:
+    measured = [
+        {
+            **value(point, "repetitions")[0],
+            "spp": value(point, "spp"),
+            "seconds": seconds(curve, value(point, "repetitions")[0], clock_of(run)),
+        }
+        for point in value(curve, "points")
+        if value(point, "spp") in kept
+    ]
+    if not measured:
         raise RunError(
             f"curve {value(curve, 'id')} has no images of single renders; add \"early_images\" to"
             " the profile and run it again"
         )
-    points = [point for point in value(curve, "points") if value(point, "spp") in kept]
-    taken = {
-        value(point, "spp"): seconds(curve, value(point, "repetitions")[0], clock_of(run))
-        for point in points
-    }
-    spp = (
-        max(taken)
+    nearest = (
+        measured[-1]
         if time is None
-        else min(taken, key=lambda each: abs(numpy.log(taken[each] / time)))
+        else min(measured, key=lambda each: abs(numpy.log(each["seconds"] / time)))
     )
-    return spp, taken[spp], run.image(kept[spp])
-
-
-def errors(image, reference):
-    """Returns RMSE, relMSE and the absolute difference of every pixel, the mean of the channels."""
-    difference = image.astype(float) - reference
-    return (
-        float(numpy.sqrt((difference**2).mean())),
-        float((difference**2 / (reference.astype(float) ** 2 + 0.01)).mean()),
-        numpy.abs(difference).mean(axis=2),
-    )
+    return nearest, run.image(kept[nearest["spp"]])
 
 
 def require_inside(inset, shape):
@@ -116,15 +110,19 @@ def image_row(run, time=None, ids=(), insets=(), width=7.0):
     grid[-1, 0].set_axis_off()
     maps = []
     for column, curve in zip(grid.T[1:], curves):
-        spp, taken, picture = image_near(run, curve, time)
-        rmse, relmse, difference = errors(picture, reference)
-        maps.append(difference)
-        note = f"{spp} spp, {taken:.3g} s\nRMSE {rmse:.3g}\nrelMSE {relmse:.3g}"
+        of, picture = image_near(run, curve, time)
+        maps.append(numpy.abs(picture.astype(float) - reference).mean(axis=2))
+        note = (
+            f"{of['spp']} spp, {of['seconds']:.3g} s\nRMSE {of['rmse']:.3g}\nrelMSE"
+            f" {of['relmse']:.3g}"
+        )
         draw_column(column, picture, label(curve), insets, note)
     positive = numpy.concatenate([each[each > 0] for each in maps])
     norm = LogNorm(*numpy.quantile(positive, SCALE)) if positive.size else None
+    colours = colormaps["inferno"].copy()
+    colours.set_bad(colours(0.0))  # no logarithm: pixels without an error
     for column, difference in zip(grid.T[1:], maps):
-        drawn = column[-1].imshow(difference, norm=norm, cmap="inferno", interpolation="nearest")
+        drawn = column[-1].imshow(difference, norm=norm, cmap=colours, interpolation="nearest")
     bar = figure.colorbar(drawn, ax=list(grid[-1, 1:]), pad=0.01)
     bar.set_label("|difference|", fontsize=7)
     bar.ax.tick_params(labelsize=7)

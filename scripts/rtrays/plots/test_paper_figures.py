@@ -2,6 +2,7 @@
 """Tests the figures and tables for papers."""
 
 import csv
+import pathlib
 import unittest
 
 import numpy
@@ -9,19 +10,20 @@ import numpy
 from rtrays.documents.document import RunError
 from rtrays.plots.image_row import image_near, image_row
 from rtrays.plots.paper_plot import paper_figure
+from rtrays.tables.points import points_csv
 from rtrays.testing import RunFolder
 
 
 class PaperFigures(RunFolder):
     def test_a_curve_is_drawn_over_its_own_seconds(self):
         run = self.run_object()
-        figure = paper_figure(run, "relmse", "wall", ["path_tracing.mis"])
+        figure = paper_figure(run, "relmse", "wall", ["path tracing (MIS)"])
         (line,) = figure.axes[0].lines
         numpy.testing.assert_allclose(line.get_xdata(), [0.2, 0.4, 0.8])  # 8 spp are noise
         numpy.testing.assert_allclose(line.get_ydata(), [1, 1 / 2, 1 / 4])
         self.assertEqual(figure.axes[0].get_xlabel(), "wall time, s")
         self.assertEqual(len(paper_figure(run, "rmse", "spp").axes[0].lines), 2)
-        with self.assertRaisesRegex(RunError, "unknown curve 'bdpt'; curves are: path_tracing"):
+        with self.assertRaisesRegex(RunError, "curve 'bdpt'; curves are: path tracing .implicit.; "):
             paper_figure(run, "rmse", "spp", ["bdpt"])
 
     def test_images_are_those_nearest_in_time(self):
@@ -31,10 +33,11 @@ class PaperFigures(RunFolder):
         ]
         run = self.run_object()
         for time, spp in ((0.01, 1), (0.19, 1), (0.21, 4), (9, 4), (None, 4)):
-            found, seconds, picture = image_near(run, run.curves[0], time)
-            self.assertEqual((found, seconds), (spp, 0.1 * spp))
-            name = "ours" if spp == 1 else "early"
-            numpy.testing.assert_array_equal(picture, numpy.load(self.folder / f"images/{name}.npy"))
+            found, picture = image_near(run, run.curves[0], time)
+            self.assertEqual((found["spp"], found["seconds"]), (spp, 0.1 * spp))
+            self.assertEqual(found["mse"], 1 / spp)
+            file = self.folder / f"images/{'ours' if spp == 1 else 'early'}.npy"
+            numpy.testing.assert_array_equal(picture, numpy.load(file))
 
     def test_the_row_shows_errors_with_their_scale(self):
         run = self.run_object()
@@ -48,23 +51,36 @@ class PaperFigures(RunFolder):
             axes[-1].images[0].get_array(), numpy.abs(early - reference).mean(axis=2)
         )
         self.assertEqual(axes[2].images[0].get_array().shape, (3, 2, 3))  # the inset
-        rmse = numpy.sqrt(((early - reference) ** 2).mean())
+        rmse = 2**-0.5 * 1.01  # of the first seed at 2 spp
         self.assertTrue(any(f"RMSE {rmse:.3g}" in each.get_xlabel() for each in axes))
         self.assertEqual(figure.axes[-1].get_ylabel(), "|difference|")
         with self.assertRaisesRegex(RunError, "not inside the image of 4x4"):
             image_row(run, None, [], [(3, 0, 2, 1)])
+
+    def test_another_renderer_has_no_device_time(self):
+        self.document["curves"][0]["engine"] = "Cycles 9"
+        run = self.run_object()
+        with self.assertRaisesRegex(RunError, "path_tracing.implicit has no device time"):
+            paper_figure(run, "rmse", "device")
+        rows = list(csv.DictReader(points_csv([run]).splitlines()))
+        clocks = {
+            name: {row["quantity"] for row in rows if row["curve"] == f"path_tracing.{name}"}
+            for name in ("implicit", "mis")
+        }
+        self.assertEqual(clocks["mis"] - clocks["implicit"], {"seconds_device"})
 
     def test_commands(self):
         self.run_object()
         for arguments in (
             ("figure", self.folder, "-o", self.folder / "paper/plot.pdf"),
             ("images", self.folder, "-o", self.folder / "paper/row.png", "--inset", "0,0,2x2"),
-            ("table", self.folder, "errors", "-o", self.folder / "paper/t.tex", "--columns", "RMSE"),
+            ("table", self.folder, "errors", "-o", self.folder / "paper/t.tex", "--columns", "L2"),
             ("points", self.folder, self.folder, "-o", self.folder / "paper/points.csv"),
         ):
             done = self.results(*arguments)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertTrue((self.folder / "paper").exists())
+            written = pathlib.Path(done.stdout.strip())
+            self.assertGreater(written.stat().st_size, 50)
         self.assertIn(r"\toprule", (self.folder / "paper/t.tex").read_text())
         with open(self.folder / "paper/points.csv", newline="") as file:
             rows = list(csv.DictReader(file))

@@ -132,7 +132,7 @@ def speeds():
 
 
 def speeds_at_a_glance():
-    """Returns the speeds for README: peers on large scenes, rays and hierarchy over Embree, GPUs."""
+    """Returns the speeds for README: peers on large scenes, parts over Embree, GPUs."""
     others = [
         f"{min(row[1:])} to {max(row[1:])} ({row[0]})"
         for row in speed_rows().rows
@@ -142,8 +142,8 @@ def speeds_at_a_glance():
     builds = span([geometric_mean(ratios) for ratios in build_ratios().values()])
     text = (
         f"On six large diffuse scenes, 1 to 8 bounces, samples per second over others:"
-        f" {', '.join(others)}. Over Embree: {rays} of its rays per second, {builds} of its speed of"
-        " BVH construction."
+        f" {', '.join(others)}. Over Embree: {rays} of its rays per second, {builds} of its speed"
+        " of BVH construction."
     )
     for row in (gpu_rows() or Table("", [], [])).rows:
         if row[1].startswith("diffuse"):

@@ -6,7 +6,7 @@ import io
 
 from rtrays.documents.curves import label
 from rtrays.documents.document import value
-from rtrays.documents.points import CLOCKS, METRICS, spread
+from rtrays.documents.points import CLOCKS, METRICS, of_seeds, spread
 
 COLUMNS = ("run", "curve", "label", "scene", "spp", "quantity", "value", "low", "high")
 
@@ -14,8 +14,9 @@ COLUMNS = ("run", "curve", "label", "scene", "spp", "quantity", "value", "low", 
 def points_csv(runs):
     """Returns CSV with a row for every quantity of every point: the median over the seeds, and the
     central 95 % of them as low and high. Quantities are the metrics and the seconds by two
-    clocks."""
-    quantities = [*METRICS, *(f"seconds_{clock}" for clock in CLOCKS)]
+    clocks; other renderers have wall time alone."""
+    quantities = {name: name for name in METRICS}
+    quantities.update((f"seconds_{clock}", clock) for clock in CLOCKS)
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -28,8 +29,8 @@ def points_csv(runs):
                 value(curve, "scene"),
             ]
             for point in value(curve, "points"):
-                for quantity in quantities:
-                    if quantity in value(point, "repetitions")[0]:
-                        numbers = [repr(number) for number in spread(point, quantity)]
-                        writer.writerow([*names, value(point, "spp"), quantity, *numbers])
+                for name, quantity in quantities.items():
+                    if sample := of_seeds(curve, point, quantity):
+                        numbers = [repr(number) for number in spread(sample)]
+                        writer.writerow([*names, value(point, "spp"), name, *numbers])
     return stream.getvalue()

@@ -58,7 +58,7 @@ class Table:
         unknown = [head for head in heads if head not in self.columns]
         if unknown:
             raise RunError(
-                f"unknown column '{unknown[0]}'; columns are: {', '.join(self.columns)}"
+                f"unknown column '{unknown[0]}'; columns are: {'; '.join(self.columns)}"
             )
         kept = [self.columns.index(head) for head in heads] or range(len(self.columns))
         return Table(

@@ -31,7 +31,7 @@ class Forms(unittest.TestCase):
         chosen = table.with_columns(["c", "a"])
         self.assertEqual((chosen.columns, chosen.rows), (["c", "a"], [["3", "1"], ["6", "4"]]))
         self.assertEqual(table.with_columns([]).rows, table.rows)
-        with self.assertRaisesRegex(RunError, "unknown column 'd'; columns are: a, b, c"):
+        with self.assertRaisesRegex(RunError, "unknown column 'd'; columns are: a; b; c"):
             table.with_columns(["d"])
 
     def test_latex_is_escaped(self):
