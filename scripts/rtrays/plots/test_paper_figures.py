@@ -23,7 +23,7 @@ class PaperFigures(RunFolder):
         numpy.testing.assert_allclose(line.get_ydata(), [1, 1 / 2, 1 / 4])
         self.assertEqual(figure.axes[0].get_xlabel(), "wall time, s")
         self.assertEqual(len(paper_figure(run, "rmse", "spp").axes[0].lines), 2)
-        with self.assertRaisesRegex(RunError, "curve 'bdpt'; curves are: path tracing .implicit.; "):
+        with self.assertRaisesRegex(RunError, "'bdpt'; curves are: path tracing .implicit.; "):
             paper_figure(run, "rmse", "spp", ["bdpt"])
 
     def test_images_are_those_nearest_in_time(self):
