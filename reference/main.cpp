@@ -170,6 +170,11 @@ ExitCode render_reference(const Options &options, const Steps &steps, const Json
                   {renderer.develop(), steps.samples * film.begin, steps.samples * film.end,
                    renderer.seconds(), counts()},
                   commits);
+    if (!options.quiet) {
+        fmt::print(stderr, "wrote {} ({} x {}), {} spp in {:.1f} s\n", options.output,
+                   options.settings.width, options.settings.height, options.end - options.begin,
+                   renderer.seconds());
+    }
     return ExitCode::ok;
 }
 

@@ -81,10 +81,11 @@ Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t
     }
     const Json &entry = manifest.at("references").at(name);
     if (entry.at("scene_hash") != request.scene_hash) {
-        throw input_error(fmt::format(
-            "{} was rendered from another version of the scene (hash {}, the scene now has {}); "
-            "render it again (make references)",
-            path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
+        throw missing(request, Json::object(),
+                      fmt::format("{} was rendered from another version of the scene (hash {}, the "
+                                  "scene now has {})",
+                                  path.string(), entry.at("scene_hash").get<std::string>(),
+                                  request.scene_hash));
     }
     if (entry.at("sha256") != reference::sha256_of(path)) {
         throw input_error(fmt::format(

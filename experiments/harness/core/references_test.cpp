@@ -123,7 +123,11 @@ TEST_F(StoredReferences, WrongSceneSeedAndDamageAreRefused) {
     store("b", 2, 32);
     EXPECT_EQ(error_code(request(), "spp"), ExitCode::bad_input);
     store("b", 2);
-    EXPECT_EQ(error_code(request(8, "fff"), "another version of the scene"), ExitCode::bad_input);
+    EXPECT_EQ(error_code(request(8, "fff"), "another version of the scene"),
+              ExitCode::reference_missing);
+    EXPECT_EQ(error_code(request(8, "fff"), "box.embree.b.exr --engine"),
+              ExitCode::reference_missing)
+        << "commands for both halves";
     write_exr(noise_image(8, 8, 3), folder_ / "box.embree.b.exr");
     EXPECT_EQ(error_code(request(), "SHA-256"), ExitCode::bad_input);
 }

@@ -11,7 +11,7 @@ of a render of N samples: a longer render gains more.
 
 import numpy
 
-from rtrays.documents.curves import is_stratified, pilot_seconds, seconds, usable_points
+from rtrays.documents.curves import is_other, is_stratified, pilot_seconds, seconds, usable_points
 from rtrays.documents.document import RunError, value
 
 DRAWS = 2000
@@ -19,8 +19,10 @@ DRAWS = 2000
 
 def exponent(curve):
     """Returns a of MSE ~ N^-a: 1 for independent samples, and twice the fitted slope of the RMSE
-    without the noise of the reference for stratified ones."""
-    return -2 * value(curve, "slope_unbiased.value") if is_stratified(curve) else 1.0
+    without the noise of the reference for stratified ones and those of other renderers, which may
+    be stratified."""
+    is_fitted = is_stratified(curve) or is_other(curve)
+    return -2 * value(curve, "slope_unbiased.value") if is_fitted else 1.0
 
 
 class Cost:
