@@ -344,13 +344,15 @@ std::vector<std::string> explain(const Json &value, const std::vector<const Json
     return faults;
 }
 
-/// Returns the errors by the path of their value, in the order of paths. An error is inner if its
-/// value contains no other one: every enclosing value repeats the errors of its members.
+/// An error of the validator.
 struct LocatedError {
-    std::vector<std::string> context;
+    std::vector<std::string> context;  ///< path of the value
     std::string reason;
-    bool is_inner = true;
+    bool is_inner = true;  ///< the value contains no other error
 };
+
+/// Returns the errors in the order of their paths. Every enclosing value repeats the errors of its
+/// members.
 std::vector<LocatedError> located(const valijson::ValidationResults &results) {
     std::map<std::vector<std::string>, std::string> reasons;
     for (const auto &error : results) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <sstream>
 
 #include "embedded/experiment_schemas.h"
 #include "experiments/harness/kinds/gate_checks.h"
@@ -145,46 +147,27 @@ void measure_baseline(const GateBench &bench, const StoredReference &reference) 
     fmt::print("wrote {}\n", gate.baseline.string());
 }
 
-/// Returns a text as it stands in an XML attribute.
-std::string in_xml(const std::string &text) {
-    std::string escaped;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            case '"':
-                escaped += "&quot;";
-                break;
-            default:
-                escaped += c;
-        }
-    }
-    return escaped;
-}
-
 /// Returns the rows of a gate as test cases of JUnit, which CI systems show.
 std::string junit_of(const std::string &name, const Json &rows, size_t failed) {
-    std::string text = fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
-        in_xml(name), rows.size(), failed);
+    pugi::xml_document document;
+    pugi::xml_node suite = document.append_child("testsuite");
+    suite.append_attribute("name") = name.c_str();
+    suite.append_attribute("tests") = rows.size();
+    suite.append_attribute("failures") = failed;
     for (const Json &row : rows) {
-        const std::string check = in_xml(row.at("check").get<std::string>());
+        const auto check = row.at("check").get<std::string>();
+        pugi::xml_node test = suite.append_child("testcase");
+        test.append_attribute("classname") =
+            fmt::format("{}.{}", name, row.at("group").get<std::string>()).c_str();
         // The text before the findings is the same in every run.
-        text += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\"", in_xml(name),
-                            row.at("group").get<std::string>(), check.substr(0, check.find(": ")));
-        text += row.at("passed").get<bool>()
-                    ? "/>\n"
-                    : fmt::format("><failure message=\"{}\"/></testcase>\n", check);
+        test.append_attribute("name") = check.substr(0, check.find(": ")).c_str();
+        if (!row.at("passed").get<bool>()) {
+            test.append_child("failure").append_attribute("message") = check.c_str();
+        }
     }
-    return text + "</testsuite>\n";
+    std::ostringstream text;
+    document.save(text);
+    return text.str();
 }
 
 class Gate : public Experiment {

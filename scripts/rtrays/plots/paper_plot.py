@@ -3,21 +3,11 @@
 
 from matplotlib import pyplot
 
-from rtrays.documents.curves import label, usable_points
+from rtrays.documents.curves import is_other, label, usable_points
 from rtrays.documents.document import RunError, value
 from rtrays.documents.points import METRICS, chosen_curves, of_seeds, spread
+from rtrays.plots.curve_plots import x_of
 from rtrays.plots.style import COLOURS, MARKERS, METADATA
-
-
-def position(curve, point, over):
-    """Returns the samples per pixel of a point, or its median seconds by a clock. Raises RunError
-    if the curve has none by this clock."""
-    if over == "spp":
-        return value(point, "spp")
-    sample = of_seeds(curve, point, over)
-    if not sample:
-        raise RunError(f"curve {value(curve, 'id')} has no {over} time; use --over wall")
-    return spread(sample)[0]
 
 
 def paper_figure(run, metric, over, ids=(), width=3.4):
@@ -26,10 +16,14 @@ def paper_figure(run, metric, over, ids=(), width=3.4):
     if metric not in METRICS:
         raise RunError(f"unknown metric '{metric}'; metrics are: {', '.join(METRICS)}")
     curves = chosen_curves(run, ids)
+    for curve in curves:
+        if over == "device" and is_other(curve):
+            raise RunError(f"curve {value(curve, 'id')} has no device time; use --over wall")
+    x_key = over if over == "spp" else f"seconds_{over}"
     figure, axes = pyplot.subplots(figsize=(width, 0.7 * width + 0.16 * len(curves)))
     for index, curve in enumerate(curves):
         points = usable_points(curve)
-        x = [position(curve, point, over) for point in points]
+        x = [x_of(curve, point, x_key) for point in points]
         middle, low, high = zip(
             *(spread(of_seeds(curve, point, metric)) for point in points)
         )
