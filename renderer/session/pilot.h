@@ -61,12 +61,12 @@ RenderSettings pilot_settings(const RenderSettings &settings);
 ///
 /// The pilot traces `TRIAL_SAMPLES` camera paths in every pixel of a lattice, and as many light
 /// paths. That is about one path per pixel of the image: the lattice has an eighth of the pixels,
-/// but 1,024 at least (or all) and 16,384 at most. The variance of the camera pass is estimated
-/// from the samples of a pixel; with Sobol points, from the means of its two sequences. That of the
-/// light pass is the second moment of a path's contributions, for hardly any two paths meet in a
-/// pixel. It is that of independent samples, whatever the sampler. The cost is counted in rays.
-/// Variance and cost are the same in every run on one device, and so is the choice. The pilot uses
-/// its own seed; its samples are discarded.
+/// but about 1,024 at least (or all) and 16,384 at most. The variance of the camera pass is
+/// estimated from the samples of a pixel; with Sobol points, from the means of its two sequences.
+/// That of the light pass is the second moment of a path's contributions, for hardly any two paths
+/// meet in a pixel. It is that of independent samples, whatever the sampler. The cost is counted in
+/// rays. Variance and cost are the same in every run on one device, and so is the choice. The pilot
+/// uses its own seed; its samples are discarded.
 ///
 /// For `GuidedEmission::trained`, a first set of light paths under a flat guide trains a guide. The
 /// pilot then traces its paths with that guide. Both sets of light paths train the final one. Their

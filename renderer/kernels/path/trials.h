@@ -81,8 +81,10 @@ DEVICE void add_light_sample_trials(Path path) {
 /// because squares may overflow or vanish.
 DEVICE void add_splat_trials(Path path) {
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
-        set_trial_value(path, trial,
-                        hypot(get_trial_value(path, trial), get_shadow_trial(path, trial)));
+        const float found = get_trial_value(path, trial), added = get_shadow_trial(path, trial);
+        const float greater = fmax(found, added);
+        const float ratio = greater > 0.0f ? fmin(found, added) / greater : 0.0f;
+        set_trial_value(path, trial, greater * sqrt(fma(ratio, ratio, 1.0f)));
     }
 }
 
