@@ -25,12 +25,9 @@ constexpr double start_cost = 1.1;
 /// Factor of the cost of camera paths that are weighted against light paths.
 constexpr double weighting_cost = 1.2;
 
-// Shares of the greatest efficiency from which trials count as equal.
-/// Without light paths. Estimates of variances are no more exact.
-constexpr double equal_without_light_paths = 0.95;
-/// With light paths. A sample with few of them leaves time for more samples, and with Sobol points
-/// the variance falls faster than the number of samples grows, which no trial shows.
-constexpr double equal_with_light_paths = 0.85;
+/// Share of the greatest efficiency from which trials count as equal. Estimates of variances are no
+/// more exact, and a sample with many light paths takes long.
+constexpr double equal_efficiency = 0.95;
 
 /// Light paths per pixel with whose weights the first guide is trained, before their number is
 /// chosen.
@@ -107,9 +104,7 @@ const PilotTrial &cheapest_of_the_efficient(const std::vector<PilotTrial> &trial
     }
     const PilotTrial *cheapest = nullptr;
     for (const PilotTrial &trial : trials) {
-        const double equal =
-            trial.per_pixel > 0 ? equal_with_light_paths : equal_without_light_paths;
-        if (efficiency(trial) >= equal * greatest &&
+        if (efficiency(trial) >= equal_efficiency * greatest &&
             (cheapest == nullptr || trial.cost < cheapest->cost)) {
             cheapest = &trial;
         }

@@ -62,8 +62,7 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
             least = std::min(least, trial.variance * trial.cost);
         }
         const auto is_equal = [&](const PilotTrial &trial) {
-            const double share = trial.per_pixel > 0 ? 0.85 : 0.95;
-            return share * trial.variance * trial.cost <= least;
+            return 0.95 * trial.variance * trial.cost <= least;
         };
         for (const PilotTrial &trial : pilot.trials) {
             const bool is_chosen =
