@@ -61,7 +61,7 @@ class SceneGainsPage(unittest.TestCase):
             gains_finding(self.run_object),
             "In equal device time, pilots included, truncated BDPT (MIS) has between 0.50 [0.50,"
             " 0.50] (bad) and 2.00 [2.00, 2.00] (good) times the efficiency of path tracing (MIS)."
-            " It is below 0.9 in 1 of 2 scenes.",
+            " It is below 0.9 in 1 of 2 scenes, with the whole interval in 1.",
         )
         scene_gains_page(self.run_object).write()
         self.assertIn("It never loses.", (self.folder / "made_up.md").read_text())
