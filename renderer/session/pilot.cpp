@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "renderer/compile/device_scene.h"
 #include "renderer/compile/emission_guide.h"
@@ -208,6 +209,23 @@ RenderSettings pilot_settings(const RenderSettings &settings) {
     pilot.count_rays = RayCounts::in_all;
     pilot.convergence_error = 0;
     return pilot;
+}
+
+std::vector<uint32_t> pilot_pixels(uint32_t width, uint32_t height) {
+    const uint64_t pixels = uint64_t{width} * height;
+    const uint64_t most = std::clamp<uint64_t>(pixels / TRIAL_SAMPLES, 32 * 32, 128 * 128);
+    const uint64_t step = (pixels + most - 1) / most;
+    auto shift = static_cast<uint64_t>(std::lround(static_cast<double>(step) * 0.6180339887));
+    while (std::gcd(shift, step) != 1) {
+        ++shift;
+    }
+    std::vector<uint32_t> lattice;
+    for (uint64_t y = 0; y < height; ++y) {
+        for (uint64_t x = shift * y % step; x < width; x += step) {
+            lattice.push_back(static_cast<uint32_t>(y * width + x));
+        }
+    }
+    return lattice;
 }
 
 Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,

@@ -55,13 +55,18 @@ bool needs_pilot(const RenderSettings &settings);
 /// given number of light paths it has no camera pass. A guide that must be trained is flat there.
 RenderSettings pilot_settings(const RenderSettings &settings);
 
+/// Returns the pixels in which a pilot traces camera paths, as y * width + x: a rank-1 lattice of
+/// about an eighth of the image's pixels, 1,024 (or all) to 16,384 of them. Any two rows, and any
+/// two columns, have the same number of these pixels or differ by one, so that axis-aligned edges,
+/// such as those of a lamp, have their share.
+std::vector<uint32_t> pilot_pixels(uint32_t width, uint32_t height);
+
 /// Chooses the number of light paths for `LIGHT_PATHS_AUTO` among 0 and the powers of 4 from 1/64
 /// to 64 per pixel, with and without explicit paths. Choices that miss some light of the scene are
 /// left out.
 ///
-/// The pilot traces `TRIAL_SAMPLES` camera paths in every pixel of a lattice, and as many light
-/// paths. That is about one path per pixel of the image: the lattice has an eighth of the pixels,
-/// but about 1,024 at least (or all) and 16,384 at most. The variance of the camera pass is
+/// The pilot traces `TRIAL_SAMPLES` camera paths in every one of `pilot_pixels`, and as many light
+/// paths. That is about one path per pixel of the image. The variance of the camera pass is
 /// estimated from the samples of a pixel; with Sobol points, from the means of its two sequences.
 /// That of the light pass is the second moment of a path's contributions, for hardly any two paths
 /// meet in a pixel. It is that of independent samples, whatever the sampler. The cost is counted in

@@ -240,6 +240,32 @@ TEST(Pilot, GivesExplicitPathsToLightsThatAppear) {
     EXPECT_TRUE(session.report().at("pilot").at("explicit"));
 }
 
+// A row of pixels may show the edge of a lamp, and most of the variance.
+TEST(Pilot, MeetsEveryRowAndColumnAlike) {
+    for (const auto &[width, height] :
+         {std::pair(1u, 1u), std::pair(32u, 32u), std::pair(33u, 32u), std::pair(96u, 64u),
+          std::pair(1u, 100000u), std::pair(100000u, 1u), std::pair(128u, 128u),
+          std::pair(1920u, 1080u), std::pair(7680u, 4320u)}) {
+        const std::vector<uint32_t> pixels = pilot_pixels(width, height);
+        const double expected = std::clamp(width * height / 8.0, 1024.0, 16384.0);
+        if (width * height <= 1024) {
+            EXPECT_EQ(pixels.size(), width * height);
+        } else {
+            EXPECT_LT(pixels.size(), 1.05 * expected) << width << " x " << height;
+            EXPECT_GT(pixels.size(), 0.5 * expected) << width << " x " << height;
+        }
+        std::vector<uint32_t> rows(height), columns(width);
+        for (const uint32_t pixel : pixels) {
+            ++rows.at(pixel / width);
+            ++columns[pixel % width];
+        }
+        for (const auto &counts : {rows, columns}) {
+            const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+            EXPECT_LE(*most - *least, 1u) << width << " x " << height;
+        }
+    }
+}
+
 // Path tracing renders the caustic of a point light black, without any variance.
 TEST(Pilot, ChoosesLightPathsIfOnlyTheySeeALight) {
     const Pilot pilot =

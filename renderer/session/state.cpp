@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
@@ -117,26 +116,6 @@ std::shared_ptr<DeviceScene> updated(std::shared_ptr<DeviceScene> scene, const S
     }
     scene->update(graph);
     return scene;
-}
-
-/// Returns the pixels of a rank-1 lattice: one in `step` of each row and column, as many as give
-/// one path per pixel of the image, within bounds. Neighbouring rows are shifted by the golden
-/// ratio, so that axis-aligned edges, such as those of a lamp, have their share of the pixels.
-std::vector<uint32_t> lattice_pixels(uint32_t width, uint32_t height) {
-    const uint64_t pixels = uint64_t{width} * height;
-    const uint64_t most = std::clamp<uint64_t>(pixels / TRIAL_SAMPLES, 32 * 32, 128 * 128);
-    const uint64_t step = (pixels + most - 1) / most;
-    auto shift = static_cast<uint64_t>(std::lround(static_cast<double>(step) * 0.6180339887));
-    while (std::gcd(shift, step) != 1) {
-        ++shift;
-    }
-    std::vector<uint32_t> lattice;
-    for (uint64_t y = 0; y < height; ++y) {
-        for (uint64_t x = shift * y % step; x < width; x += step) {
-            lattice.push_back(static_cast<uint32_t>(y * width + x));
-        }
-    }
-    return lattice;
 }
 
 }  // namespace
@@ -295,8 +274,8 @@ void RenderSession::State::allocate_streams() {
 }
 
 void RenderSession::State::allocate_trials() {
-    const std::vector<uint32_t> pixels_of_lattice = lattice_pixels(
-        static_cast<uint32_t>(settings.width), static_cast<uint32_t>(settings.height));
+    const std::vector<uint32_t> pixels_of_lattice =
+        pilot_pixels(static_cast<uint32_t>(settings.width), static_cast<uint32_t>(settings.height));
     trial_pixels = Buffer<uint32_t>(device, "trial_pixels", pixels_of_lattice);
     for (CompiledPass &pass : passes) {
         pass.film = Buffer<int64_t>(
