@@ -10,6 +10,7 @@
 
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
+#include "renderer/base/option_checks.h"
 
 namespace rtrays::reference {
 
@@ -87,7 +88,7 @@ std::optional<Options> parse_options(int argc, char **argv) {
     app.add_option("-o,--output", options.output, "output image (OpenEXR)")->required();
     auto *spp =
         app.add_option("--spp", options.end, "samples per pixel; equivalent to --samples 0:N")
-            ->check(CLI::PositiveNumber);
+            ->check(positive_number());
     auto *samples = app.add_option("--samples", range, "sample range BEGIN:END")->excludes(spp);
     app.add_option("--seed", options.settings.seed, "random seed")->capture_default_str();
     app.add_option("--engine", options.engine,
@@ -112,13 +113,13 @@ std::optional<Options> parse_options(int argc, char **argv) {
         ->capture_default_str();
     app.add_option("--threads", options.settings.threads,
                    "number of threads, 0 means all; no effect on the image")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_from_0())
         ->capture_default_str();
     app.add_flag("--resume", options.resume, "continue from the state file if it exists");
     app.add_option("--state", options.state, "state file; default: OUTPUT.state");
     app.add_option("--checkpoint-interval", options.checkpoint_interval,
                    "seconds between writes of the state file, at most 600")
-        ->check(CLI::Range(0.0, 600.0))
+        ->check(number_between(0.0, 600.0))
         ->capture_default_str();
     app.add_option("--stats", options.stats, "JSON file to write counts and times to");
     auto *manifest = app.add_option(

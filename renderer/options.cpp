@@ -9,6 +9,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/option_checks.h"
 #include "renderer/export/display_image.h"
 #include "renderer/export/export_scene.h"
 
@@ -158,7 +159,7 @@ void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double
         ->allow_extra_args(false);
     app.add_option("--exposure", exposure,
                    "exposure of .png and .jpg in stops: radiance is multiplied by 2^EXPOSURE")
-        ->check(CLI::Range(-100.0, 100.0))
+        ->check(number_between(-100.0, 100.0))
         ->capture_default_str();
 }
 
@@ -178,10 +179,10 @@ void add_options(CLI::App &app, Options &options) {
         ->check(CLI::IsMember({"all", "camera", "light"}))
         ->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_option("--time", options.seconds,
                    "render for this many seconds instead of a number of samples")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_option("--samples", options.samples,
                    "render only the samples BEGIN:END of every pixel");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")
@@ -196,11 +197,11 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--state", options.state, "film file to write, for --resume and merge");
     app.add_option("--checkpoint-interval", options.checkpoint_interval,
                    "seconds between writes of the film of --state")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_from_0())
         ->capture_default_str();
     app.add_option("--preview", options.preview,
                    "write the images while they render, every so many seconds")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_from_0());
     app.add_flag("--resume", options.resume, "continue from the film of --state if it exists");
     app.add_flag("--overwrite", options.overwrite, "replace the film of --state if it exists");
     app.add_option("--set", options.assignments, "change a setting: NAME=VALUE; may be repeated")

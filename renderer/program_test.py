@@ -222,6 +222,9 @@ class Program(unittest.TestCase):
                                    ("--spp excludes --samples", ["--samples", "0:4", "--spp", "4"]),
                                    ("--time excludes --spp", ["--time", "1", "--spp", "4"]),
                                    ("--state", ["--resume"]),
+                                   ("--spp: 0: expected a positive number", ["--spp", "0"]),
+                                   ("expected a number from 0 to 180", ["--fov", "181"]),
+                                   ("expected a number, 0 or more", ["--preview", "-1"]),
                                    ("path_tracing", ["--algorithm", "magic"])):
             self.expect_error(2, [message], CORNELL, "-o", self.output(), *arguments)
 
@@ -232,8 +235,7 @@ class Program(unittest.TestCase):
                           scene, "-o", self.output(), *SMALL)
 
     def test_usage_errors_exit_with_2(self):
-        for arguments in (["--no-such-option"], [], [CORNELL],
-                          [CORNELL, "-o", self.output(), "--spp", "0"]):
+        for arguments in (["--no-such-option"], [], [CORNELL]):
             self.assertEqual(self.run_program(*arguments).returncode, 2)
 
     def test_help_and_version(self):

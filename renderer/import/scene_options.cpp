@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "renderer/base/error.h"
+#include "renderer/base/option_checks.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/scene/cores/camera.h"
@@ -119,7 +120,7 @@ void add_scene_options(CLI::App &app, SceneOptions &options) {
         ->allow_extra_args(false);
     app.add_option("--fov", options.fov,
                    "angle of view in degrees, on the axis that the camera names")
-        ->check(CLI::Range(0.0, 180.0));
+        ->check(number_between(0.0, 180.0));
     app.add_option("--environment", options.environment,
                    "image (.hdr, .exr) that lights the scene from infinity, instead of its own")
         ->check(CLI::ExistingFile);
