@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "renderer/compile/device_scene.h"
 #include "renderer/compile/emission_guide.h"
@@ -97,12 +98,27 @@ double efficiency(const PilotTrial &trial) {
     return std::isfinite(trial.variance) ? 1 / (trial.variance * trial.cost) : 0.0;
 }
 
+/// Returns the greatest efficiency of trials with light paths, and of those without.
+std::pair<double, double> greatest_efficiencies(const std::vector<PilotTrial> &trials) {
+    std::pair<double, double> greatest{0, 0};
+    for (const PilotTrial &trial : trials) {
+        double &of_kind = trial.per_pixel > 0 ? greatest.first : greatest.second;
+        of_kind = std::max(of_kind, efficiency(trial));
+    }
+    return greatest;
+}
+
+/// Returns whether some number of light paths is more efficient than path tracing at the cost of
+/// their weights would be, beyond what counts as equal. Otherwise light paths only take time.
+bool light_paths_help(const std::vector<PilotTrial> &trials) {
+    const auto [with, without] = greatest_efficiencies(trials);
+    return weighting_cost * with > without / equal_efficiency;
+}
+
 /// Returns the trial with the least cost of a sample among those that are as efficient as any.
 const PilotTrial &cheapest_of_the_efficient(const std::vector<PilotTrial> &trials) {
-    double greatest = 0;
-    for (const PilotTrial &trial : trials) {
-        greatest = std::max(greatest, efficiency(trial));
-    }
+    const auto [with, without] = greatest_efficiencies(trials);
+    const double greatest = std::max(with, without);
     const PilotTrial *cheapest = nullptr;
     for (const PilotTrial &trial : trials) {
         if (efficiency(trial) >= equal_efficiency * greatest &&
@@ -113,10 +129,10 @@ const PilotTrial &cheapest_of_the_efficient(const std::vector<PilotTrial> &trial
     return *cheapest;
 }
 
-/// Traces the paths of one pass and adds rays and times to those of `pilot`.
-TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
+/// Traces the first `count` paths of one pass and adds rays and times to those of `pilot`.
+TrialPaths trace(RenderSession &session, PassKind pass, size_t count, Pilot &pilot) {
     const RenderStats before = session.stats();
-    TrialPaths found = session.trace_trials(pass);
+    TrialPaths found = session.trace_trials(pass, count);
     pilot.rays += static_cast<uint64_t>(found.nearest_rays + found.shadow_rays);
     pilot.seconds += session.stats().device_seconds - before.device_seconds;
     pilot.wall_seconds += session.stats().wall_seconds - before.wall_seconds;
@@ -148,15 +164,18 @@ void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths
     const ByTrial of_camera = camera_variance(
         camera.paths, settings.sampler == Sampler::sobol ? SOBOL_SEQUENCES : TRIAL_SAMPLES);
     const ByTrial of_light = light_variance(light.paths);
-    const auto count = static_cast<double>(camera.paths.size());
+    const auto camera_count = static_cast<double>(camera.paths.size()),
+               light_count = static_cast<double>(light.paths.size());
+    pilot.trials.clear();
     for (const size_t trial : candidates(scene, settings)) {
         const bool is_explicit = trial_is_explicit(static_cast<uint32_t>(trial));
         const double per_pixel = paths_per_pixel(trial);
         const double camera_rays = camera.nearest_rays + (is_explicit ? camera.shadow_rays : 0);
         pilot.trials.push_back(
             {per_pixel, is_explicit, of_camera[trial] + of_light[trial],
-             camera_rays / count * (per_pixel > 0 ? weighting_cost : 1.0) +
-                 per_pixel * ((light.nearest_rays + light.shadow_rays) / count + start_cost)});
+             camera_rays / camera_count * (per_pixel > 0 ? weighting_cost : 1.0) +
+                 per_pixel *
+                     ((light.nearest_rays + light.shadow_rays) / light_count + start_cost)});
     }
     const PilotTrial best = cheapest_of_the_efficient(pilot.trials);
     pilot.is_explicit = best.is_explicit;
@@ -166,17 +185,17 @@ void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths
 
 }  // namespace
 
-TrialPaths RenderSession::trace_trials(PassKind kind) {
+TrialPaths RenderSession::trace_trials(PassKind kind, size_t count) {
     State &s = *state_;
     const auto pass = std::find_if(s.passes.begin(), s.passes.end(),
                                    [&](const CompiledPass &p) { return p.kind == kind; });
     s.counters.clear();
     const auto start = SteadyClock::now();
     TrialPaths found;
-    found.paths.resize(TRIAL_SAMPLES * s.trial_pixels.size());
-    s.run_pass(*pass, 0, 0, static_cast<uint32_t>(found.paths.size()));
+    found.paths.resize(count);
+    s.run_pass(*pass, 0, 0, static_cast<uint32_t>(count));
     const std::vector<int64_t> words = pass->film.read();
-    std::memcpy(found.paths.data(), words.data(), pass->film.bytes());
+    std::memcpy(found.paths.data(), words.data(), count * sizeof(PathTrials));
     s.wall_seconds += seconds_since(start);
     const StreamCounters counters = s.counters.read().front();
     found.nearest_rays = static_cast<double>(counters.nearest_rays);
@@ -246,30 +265,46 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
         return pilot;
     }
     const double pixels = static_cast<double>(settings.width) * settings.height;
+    const size_t camera_paths = TRIAL_SAMPLES * pilot_pixels(static_cast<uint32_t>(settings.width),
+                                                             static_cast<uint32_t>(settings.height))
+                                                    .size();
     RenderSettings own = pilot_settings(settings);
     std::vector<PathTrials> training;
-    const auto guide = [&](double light_paths) {
+    TrialPaths light;
+    const auto train_guide = [&] {
+        training.insert(training.end(), light.paths.begin(), light.paths.end());
+        const double light_paths =
+            pilot.light_paths > 0 ? pilot.light_paths : first_guide_paths * pixels;
         return std::make_shared<const EmissionGuide>(make_guide(
             compiled, emission_moments(compiled, training,
                                        nearest_trial(light_paths / pixels, pilot.is_explicit))));
     };
+    std::vector<size_t> sets{camera_paths};
     if (trains) {
         RenderSettings flat = own;
         flat.only_pass = PassKind::light;
         RenderSession session(shared, scene, flat);
-        training = trace(session, PassKind::light, pilot).paths;
+        light = trace(session, PassKind::light, camera_paths / 4, pilot);
         own.guided_emission = GuidedEmission::off;
-        own.emission_guide = guide(chooses ? first_guide_paths * pixels : pilot.light_paths);
-        own.seed ^= 1u << 31;  // other paths
+        sets.insert(sets.begin(), camera_paths / 2);
     }
-    RenderSession session(shared, scene, own);
-    const TrialPaths light = trace(session, PassKind::light, pilot);
-    if (chooses) {
-        choose_light_paths(pilot, trace(session, PassKind::camera, pilot), light, scene, settings);
+    for (const size_t light_paths : sets) {
+        if (trains) {
+            own.emission_guide = train_guide();
+            own.seed += 1u << 30;  // other paths
+        }
+        RenderSession session(shared, scene, own);
+        light = trace(session, PassKind::light, light_paths, pilot);
+        if (chooses) {
+            choose_light_paths(pilot, trace(session, PassKind::camera, camera_paths, pilot), light,
+                               scene, settings);
+            if (!light_paths_help(pilot.trials)) {
+                break;
+            }
+        }
     }
     if (trains && pilot.light_paths > 0) {
-        training.insert(training.end(), light.paths.begin(), light.paths.end());
-        pilot.guide = guide(pilot.light_paths);
+        pilot.guide = train_guide();
     }
     return pilot;
 }

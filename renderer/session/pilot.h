@@ -65,17 +65,20 @@ std::vector<uint32_t> pilot_pixels(uint32_t width, uint32_t height);
 /// to 64 per pixel, with and without explicit paths. Choices that miss some light of the scene are
 /// left out.
 ///
-/// The pilot traces `TRIAL_SAMPLES` camera paths in every one of `pilot_pixels`, and as many light
-/// paths. That is about one path per pixel of the image. The variance of the camera pass is
-/// estimated from the samples of a pixel; with Sobol points, from the means of its two sequences.
+/// The pilot traces `TRIAL_SAMPLES` camera paths in every one of `pilot_pixels`, which is about one
+/// path per pixel of the image, and as many light paths. The variance of the camera pass is
+/// estimated from the samples of a pixel; with Sobol points, from the means of its two sequences,
+/// without emission that the camera sees directly (kernels/path/emission_hit.h).
 /// That of the light pass is the second moment of a path's contributions, for hardly any two paths
 /// meet in a pixel. It is that of independent samples, whatever the sampler. The cost is counted in
 /// rays. Variance and cost are the same in every run on one device, and so is the choice. The pilot
 /// uses its own seed; its samples are discarded.
 ///
-/// For `GuidedEmission::trained`, a first set of light paths under a flat guide trains a guide. The
-/// pilot then traces its paths with that guide. Both sets of light paths train the final one. Their
-/// weights are those of the power of 4 nearest to the number of light paths. Sums are added in the
+/// For `GuidedEmission::trained`, a quarter of the light paths under a flat guide train a guide.
+/// Camera paths and half of the light paths follow with that guide. Where light paths are of no use
+/// there, the pilot ends. Otherwise all paths are traced under the guide that both sets of light
+/// paths train; they choose, and all three sets of light paths train the final guide. Their weights
+/// are those of the power of 4 nearest to the number of light paths. Sums are added in the
 /// order of the paths, so the guide is the same in every run on one device. If the scene has no
 /// light to guide, or too many, there is no guide with `LIGHT_PATHS_AUTO`; otherwise `Error` (bad
 /// input) is thrown.

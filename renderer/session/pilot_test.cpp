@@ -148,9 +148,10 @@ std::map<std::pair<double, bool>, std::vector<double>> pilot_variances(const Sce
     return variances;
 }
 
-// The estimates of all trials come from paths of one of them.
+// The estimates of all trials come from paths of one of them. In this scene all pilots end early:
+// elsewhere a small estimate may be what ends one.
 TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
-    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    const Scene scene = load_scene(RTRAYS_SCENES "/features/area_light.json");
     const auto of_pilots = pilot_variances(scene, Sampler::independent, 8);
     for (const auto &[per_pixel, is_explicit] : {std::pair(0.25, true), std::pair(4.0, false)}) {
         RenderSettings settings = settings_of(static_cast<uint32_t>(per_pixel * 32 * 32));
@@ -164,18 +165,19 @@ TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
     }
 }
 
-// Two sequences say less about the variance of a pixel than eight samples.
+// Two sequences say less about the variance of a pixel than eight samples. The camera of this scene
+// sees no emitter.
 TEST(Pilot, EstimatesTheVarianceOfSobolPoints) {
-    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    const Scene scene = load_scene(RTRAYS_SCENES "/features/area_light.json");
     RenderSettings settings = settings_of(0);
     const Estimate independent = rendered_variance(scene, settings);
     settings.sampler = Sampler::sobol;
     const Estimate pilots(pilot_variances(scene, Sampler::sobol, 32).at({0.0, true})),
         rendered = rendered_variance(scene, settings, TRIAL_SAMPLES);
     EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error));
-    EXPECT_LT(rendered.error, 0.15 * rendered.mean);
-    EXPECT_LT(pilots.error, 0.15 * pilots.mean);
-    EXPECT_LT(pilots.mean, 0.6 * independent.mean) << "as large as that of independent samples";
+    EXPECT_LT(rendered.error, 0.05 * rendered.mean);
+    EXPECT_LT(pilots.error, 0.05 * pilots.mean);
+    EXPECT_LT(pilots.mean, 0.7 * independent.mean) << "as large as that of independent samples";
 }
 
 // No light sample reaches a lamp in glass.
@@ -211,6 +213,19 @@ TEST(Pilot, GoesWithCountsOfRays) {
     const uint32_t expected = choose(scene, settings).light_paths;
     settings.count_rays = RayCounts::by_depth;
     EXPECT_EQ(choose(scene, settings).light_paths, expected);
+}
+
+// Whether a few pixels of a pilot meet the edge of the lamp must not decide: 16 light paths per
+// pixel would take 30 times as long as path tracing, for a tenth of the variance.
+TEST(Pilot, IsSteadyWhereTheCameraSeesALamp) {
+    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
+    settings.width = settings.height = 128;
+    settings.sampler = Sampler::sobol;
+    for (uint32_t seed = 1; seed <= 8; ++seed) {
+        settings.seed = seed;
+        EXPECT_EQ(choose(scene, settings).light_paths, 0u) << seed;
+    }
 }
 
 // A lamp in glass needs no explicit paths; a point light that is switched on later does.

@@ -103,9 +103,10 @@ class RenderSession {
     /// memory; the size then stays.
     void resize(int width, int height);
 
-    /// Traces the paths of one pass of a pilot and returns what each found. The settings must have
-    /// `light_path_trials`; such a session has no film.
-    TrialPaths trace_trials(PassKind pass);
+    /// Traces the first `count` paths of one pass of a pilot and returns what each found. The
+    /// settings must have `light_path_trials`; such a session has no film. There are at most
+    /// `TRIAL_SAMPLES` paths for each of `pilot_pixels`.
+    TrialPaths trace_trials(PassKind pass, size_t count);
 
     /// Returns the film so far.
     FilmState film() const;
