@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/metrics.h"
@@ -14,6 +15,7 @@
 #include "reference/renderer.h"
 #include "renderer/base/error.h"
 #include "renderer/base/progress.h"
+#include "renderer/session/pilot.h"
 #include "renderer/session/shared_scenes.h"
 
 namespace rtrays {
@@ -61,23 +63,36 @@ struct Renders {
     std::vector<RenderStats> stats;
 };
 
+/// Returns the colours alone: an image has layers of the passes that its pilot chose.
+Image without_layers(const Image &image) {
+    Image colours = Image::rgb(image.width(), image.height());
+    for (const char *name : {"R", "G", "B"}) {
+        colours.channel(name) = image.channel(name);
+    }
+    return colours;
+}
+
 /// Renders all curves in interleaved repetitions.
 std::vector<Renders> render_curves(const Description &description, const Scene &scene,
                                    DeviceContext &device, const std::function<void()> &advance) {
     SharedScenes scenes(scene, device);
-    std::vector<RenderSession> sessions;
-    for (const CurveDescription &curve : description.curves) {
-        sessions.push_back(scenes.session(curve.settings));
-    }
+    std::vector<std::optional<RenderSession>> sessions(description.curves.size());
     std::vector<Renders> renders(sessions.size());
     for (uint32_t seed = 1; seed <= description.seeds; ++seed) {
         for (size_t turn = 0; turn < sessions.size(); ++turn) {
             // The order alternates, so that other load on the machine affects all curves equally.
             const size_t i = seed % 2 == 0 ? sessions.size() - 1 - turn : turn;
-            sessions[i].restart(seed);
-            render_whole(sessions[i], 0, description.spp);
-            renders[i].images.push_back(sessions[i].develop());
-            renders[i].stats.push_back(sessions[i].stats());
+            RenderSettings settings = description.curves[i].settings;
+            settings.seed = seed;
+            std::optional<RenderSession> &session = sessions[i];
+            if (!session || needs_pilot(settings)) {  // what a pilot chooses depends on its seed
+                session.emplace(scenes.session(settings));
+            } else {
+                session->restart(seed);
+            }
+            render_whole(*session, 0, description.spp);
+            renders[i].images.push_back(without_layers(session->develop()));
+            renders[i].stats.push_back(session->stats());
         }
         advance();
     }
