@@ -234,6 +234,12 @@ class Program(ProgramTest):
             curves=[{"engine": "command", "label": "Mine 1.0", "command": command},
                     {"algorithm": "path_tracing"}])
 
+    def test_a_missing_program_is_found_before_the_run(self):
+        path = self.other_renderer()
+        path.write_text(path.read_text().replace('"sh", "-c"', '"no-such-renderer", "-c"'))
+        self.refused(2, "/curves/0/command: program 'no-such-renderer' was not found", "run",
+                     path, "--dry-run")
+
     def test_another_renderer_is_a_curve(self):
         out = self.folder / "out"
         done = self.call("run", self.other_renderer(), "--out", out, "--quiet")

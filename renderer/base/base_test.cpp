@@ -242,6 +242,16 @@ TEST(Process, ends_with_its_exit_code) {
     EXPECT_EQ(shell.wait(), 5);
 }
 
+TEST(Process, is_found_before_it_starts) {
+    for (const char *program : {"cat", "/bin/cat"}) {
+        EXPECT_TRUE(program_exists(program)) << program;
+    }
+    for (const char *program :
+         {"rtrays-no-such-program", "/bin/rtrays-no-such-program", "/bin", ""}) {
+        EXPECT_FALSE(program_exists(program)) << program;
+    }
+}
+
 TEST(Process, that_is_not_there_says_nothing) {
     Process nothing({"rtrays-no-such-program"});
     EXPECT_EQ(nothing.read_line(), std::nullopt);

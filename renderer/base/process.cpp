@@ -12,9 +12,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 
 namespace rtrays {
 
@@ -68,6 +71,23 @@ int exit_code(int status) {
 }
 
 }  // namespace
+
+bool program_exists(const std::string &program) {
+    const auto is_program = [](const std::filesystem::path &path) {
+        return is_file(path) && access(path.c_str(), X_OK) == 0;
+    };
+    if (program.find('/') != std::string::npos) {
+        return is_program(program);
+    }
+    const char *path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (is_program(std::filesystem::path(folder) / program)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 std::vector<std::pair<std::string, std::string>> python_environment() {
     const char *path = std::getenv("PATH");

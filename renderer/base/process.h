@@ -47,6 +47,10 @@ class Process {
     std::string read_ahead_;
 };
 
+/// Returns whether `Process` finds a program: a file that may be executed, whose name has a slash
+/// or which is in a folder of the PATH.
+bool program_exists(const std::string &program);
+
 /// Returns a PATH with Debian's Python first. Blender takes the packages of its Python from the
 /// installation of the first python3 in the PATH.
 std::vector<std::pair<std::string, std::string>> python_environment();

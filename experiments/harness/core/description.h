@@ -19,7 +19,7 @@ struct OtherRenderer {
     std::string engine;                  ///< "mitsuba", "cycles" or "command"
     std::string variant;                 ///< of Mitsuba
     uint32_t roulette_start = 0;         ///< scattering event from which Mitsuba's roulette acts
-    std::vector<std::string> command{};  ///< of "command"; see other_renderer.h
+    std::vector<std::string> command{};  ///< of "command"; see curve_source.h
 };
 
 /// A curve: an algorithm with its settings, or another renderer. `spp`, `early_images` and `seeds`

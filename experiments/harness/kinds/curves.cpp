@@ -19,6 +19,7 @@
 #include "experiments/harness/kinds/throughput.h"
 #include "reference/renderer.h"
 #include "renderer/base/error.h"
+#include "renderer/base/process.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
@@ -201,7 +202,16 @@ class Curves : public Experiment {
     Curves(const DescriptionFile &file, const RunOptions &options)
         : description_(read_curves(file, options.profile)),
           scene_(load_scene(description_.scene.string())),
-          reference_(load_reference(description_, scene_)) {}
+          reference_(load_reference(description_, scene_)) {
+        for (size_t i = 0; i < description_.curves.size(); ++i) {
+            const auto &other = description_.curves[i].other;
+            if (other && other->engine == "command" && !program_exists(other->command.front())) {
+                throw input_error(fmt::format("{}: program '{}' was not found",
+                                              file.location(fmt::format("/curves/{}/command", i)),
+                                              other->command.front()));
+            }
+        }
+    }
 
     std::string plan() const override { return plan_of(description_, reference_); }
 

@@ -111,11 +111,8 @@ class Command : public Program {
             }
         }
         if (const int code = process.wait(); code != 0) {
-            constexpr int not_found = 127;
-            throw run_error(fmt::format(
-                "'{}' {}: {}", name_,
-                code == not_found ? "was not found" : fmt::format("ended with exit code {}", code),
-                fmt::join(command, " ")));
+            throw run_error(fmt::format("'{}' ended with exit code {}: {}", name_, code,
+                                        fmt::join(command, " ")));
         }
         if (!fs::exists(request.output)) {
             throw run_error(fmt::format("'{}' wrote no image to {{output}}: {}", name_,
