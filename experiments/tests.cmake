@@ -40,6 +40,11 @@ add_test(NAME programs.installed
     COMMAND ${RTRAYS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/harness/install_test.py ${CMAKE_BINARY_DIR})
 set_tests_properties(programs.installed PROPERTIES TIMEOUT 600)
 
+# The plan for a machine with a GPU, on this one.
+add_test(NAME programs.gpu_run
+    COMMAND ${RTRAYS_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/gpu_run ${CMAKE_BINARY_DIR}/gpu_run --tiny --device cpu)
+set_tests_properties(programs.gpu_run PROPERTIES TIMEOUT 900 RUN_SERIAL ON)
+
 # The commands and JSON blocks of the documentation.
 add_test(NAME docs.commands
     COMMAND ${RTRAYS_PYTHON} ${PROJECT_SOURCE_DIR}/docs/commands_test.py ${CMAKE_BINARY_DIR})
