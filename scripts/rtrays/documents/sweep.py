@@ -6,7 +6,7 @@ import numpy
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import ratio_of_means
 
-# Gains: key, what the errors are, and what they cost.
+# Gains: key, what the errors are, and what their images cost.
 GAINS = {
     "samples": ("mse", None),
     "rays": ("mse", "rays"),
@@ -33,18 +33,17 @@ def of_seeds(curve, key):
     return numpy.array([value(each, key) for each in value(curve, "repetitions")])
 
 
-def cost(curve, key):
-    """Returns the median cost of a seed."""
-    return float(numpy.median(of_seeds(curve, key)))
-
-
 def gain(row, curve, key):
     """Returns the gain of a curve over the last one, by key of GAINS, with the bootstrap's 95 %
-    interval over seeds; None if the image has no such pixels."""
-    base, (error, price) = base_of(row), GAINS[key]
-    scale = cost(base, price) / cost(curve, price) if price else 1.0
-    over, under = of_seeds(base, error), of_seeds(curve, error)
-    return ratio_of_means(over, under, scale) if under.min() > 0 else None
+    interval over seeds; None if the image has no such pixels. At equal cost it compares the means
+    of error times cost, seed by seed: the pilot of every seed may choose otherwise."""
+    error, cost = GAINS[key]
+
+    def inefficiency(of):
+        return of_seeds(of, error) * (of_seeds(of, cost) if cost else 1.0)
+
+    over, under = inefficiency(base_of(row)), inefficiency(curve)
+    return ratio_of_means(over, under) if under.min() > 0 else None
 
 
 def share_of_part(curve, key):

@@ -61,7 +61,7 @@ def gains_table(run):
         f"Gains over {base}, least first",
         ["scene", "curve", "equal samples", "equal numbers of rays", "equal device time"],
         cells,
-        ["Rays and times include the pilots."],
+        ["Every seed has its own pilot. Rays and times include the pilots."],
     )
 
 
