@@ -222,9 +222,6 @@ class Program(unittest.TestCase):
                                    ("--spp excludes --samples", ["--samples", "0:4", "--spp", "4"]),
                                    ("--time excludes --spp", ["--time", "1", "--spp", "4"]),
                                    ("--state", ["--resume"]),
-                                   ("--spp: 0: expected a positive number", ["--spp", "0"]),
-                                   ("expected a number from 0 to 180", ["--fov", "181"]),
-                                   ("expected a number, 0 or more", ["--preview", "-1"]),
                                    ("path_tracing", ["--algorithm", "magic"])):
             self.expect_error(2, [message], CORNELL, "-o", self.output(), *arguments)
 
@@ -237,6 +234,13 @@ class Program(unittest.TestCase):
     def test_usage_errors_exit_with_2(self):
         for arguments in (["--no-such-option"], [], [CORNELL]):
             self.assertEqual(self.run_program(*arguments).returncode, 2)
+        for message, option in (("--spp: 0: expected a positive number", ["--spp", "0"]),
+                                ("--fov: 181: expected a number from 0 to 180", ["--fov", "181"]),
+                                ("--preview: x: expected a number, 0 or more",
+                                 ["--preview", "x"])):
+            result = self.run_program(CORNELL, "-o", self.output(), *option)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(message, result.stderr)
 
     def test_help_and_version(self):
         for option in ("--help", "--version", "--list-devices", "--list-algorithms"):
