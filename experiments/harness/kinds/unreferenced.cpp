@@ -66,7 +66,7 @@ struct Renders {
 /// Returns the colours alone: an image has layers of the passes that its pilot chose.
 Image without_layers(const Image &image) {
     Image colours = Image::rgb(image.width(), image.height());
-    for (const char *name : {"R", "G", "B"}) {
+    for (const std::string &name : rgb_names()) {
         colours.channel(name) = image.channel(name);
     }
     return colours;
