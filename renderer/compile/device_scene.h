@@ -65,8 +65,9 @@ class DeviceScene {
     }
 
     /// Returns the inputs of stages that read the scene. `features` must have been required.
-    StageArguments arguments(FeatureMask features, const Buffer<uint32_t> &emission_guide) const {
-        return buffers_.arguments(compiled_, bvh_, features, emission_guide);
+    StageArguments arguments(FeatureMask features, const Buffer<uint32_t> &emission_guide,
+                             const Buffer<uint32_t> &scatter_guide) const {
+        return buffers_.arguments(compiled_, bvh_, features, emission_guide, scatter_guide);
     }
 
     const Bvh &bvh() const { return bvh_; }

@@ -9,6 +9,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/compile/guide_table.h"
 
 namespace rtrays {
 
@@ -31,23 +32,6 @@ std::vector<double> usual_selection(const CompiledScene &scene) {
     return probabilities;
 }
 
-void append_ends(const std::vector<double> &weights, std::vector<uint32_t> &words) {
-    const SelectionTable table = selection_table(weights);
-    words.insert(words.end(), table.end.begin(), table.end.end());
-}
-
-/// Appends the table of bins with the given weights, which are positive.
-void append_table(const std::vector<double> &bins, std::vector<uint32_t> &words) {
-    std::vector<double> rows;
-    for (auto row = bins.begin(); row != bins.end(); row += GUIDE_COLUMNS) {
-        rows.push_back(std::accumulate(row, row + GUIDE_COLUMNS, 0.0));
-    }
-    append_ends(rows, words);
-    for (auto row = bins.begin(); row != bins.end(); row += GUIDE_COLUMNS) {
-        append_ends({row, row + GUIDE_COLUMNS}, words);
-    }
-}
-
 /// Returns the guide with given probabilities of the lights. bins(i) are the weights of the bins of
 /// light i, if it takes a table.
 template <typename Bins>
@@ -57,13 +41,13 @@ EmissionGuide guide_of(const CompiledScene &scene, const std::vector<double> &se
     if (selection.empty()) {
         return guide;
     }
-    append_ends(selection, guide.words);
+    append_selection(selection, guide.words);
     const size_t count = selection.size();
     guide.words.resize(2 * count, NO_GUIDE_TABLE);
     for (size_t i = 0; i < count; ++i) {
         if (takes_guide_table(scene, i)) {
-            guide.words[count + i] = static_cast<uint32_t>(guide.words.size());
-            append_table(bins(i), guide.words);
+            const uint32_t table = append_guide_table(bins(i), guide.words);
+            guide.words[count + i] = table;
         }
     }
     return guide;
@@ -141,19 +125,10 @@ struct PathSum {
     double mean() const { return squares / paths; }
 };
 
-/// Returns the sum over a bin and its eight neighbours, with the weights 1, 1/2 (edges) and 1/4
-/// (corners). The last column is a neighbour of the first.
+/// Returns the sum over a bin and its eight neighbours (`for_each_bin_around`).
 PathSum sum_around(const PathSum *bins, size_t bin) {
-    const auto row = static_cast<int>(bin / GUIDE_COLUMNS),
-               column = static_cast<int>(bin % GUIDE_COLUMNS);
-    constexpr auto rows = static_cast<int>(GUIDE_ROWS), columns = static_cast<int>(GUIDE_COLUMNS);
     PathSum sum;
-    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y) {
-        for (int x = column - 1; x <= column + 1; ++x) {
-            sum.add(bins[y * columns + (x + columns) % columns],
-                    (y == row ? 1.0 : 0.5) * (x == column ? 1.0 : 0.5));
-        }
-    }
+    for_each_bin_around(bin, [&](size_t other, double weight) { sum.add(bins[other], weight); });
     return sum;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "renderer/compile/compile_scene.h"
-#include "renderer/shared/emission_guide.h"
+#include "renderer/shared/guide_layout.h"
 #include "renderer/shared/light_path_trials.h"
 
 namespace rtrays {
@@ -19,7 +19,7 @@ namespace rtrays {
 /// Most lights that a guide supports.
 constexpr size_t most_guided_lights = 64;
 
-/// An emission guide in the layout of shared/emission_guide.h. Every bin of a table has words.
+/// An emission guide in the layout of shared/guide_layout.h. Every bin of a table has words.
 struct EmissionGuide {
     std::vector<uint32_t> words;
 };

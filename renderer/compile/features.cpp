@@ -85,6 +85,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::dome, Feature::infinite_lights},
     {Feature::environment, Feature::infinite_lights},
     {Feature::guided_emission, Feature::lights},
+    {Feature::guided_scattering, Feature::delta},
+    {Feature::guided_scattering, Feature::light_strategy},
 };
 
 /// Features that only serve others. Each is off unless one of the features that it serves is on.
@@ -164,7 +166,8 @@ FeatureMask FeatureMask::closed() const {
                                           mask.has(Feature::shape_lights) &&
                                           (!strategy || mask.has(Feature::light_emitters)))
         .with(Feature::roulette_scale,
-              mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
+              mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light ||
+                                              mask.has(Feature::guided_scattering)));
 }
 
 namespace {

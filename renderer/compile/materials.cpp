@@ -57,6 +57,11 @@ constexpr std::array<FresnelRow, 6> fresnels = {{
 bool is_delta(uint32_t kind) {
     return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
 }
+bool is_diffuse(uint32_t kind) {
+    return kind == BXDF_LAMBERT || kind == BXDF_OREN_NAYAR || kind == BXDF_COATED_LAMBERT ||
+           kind == BXDF_DISNEY_DIFFUSE;
+}
+
 bool refracts(uint32_t kind) {
     return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
 }
@@ -244,7 +249,7 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
     for (size_t i = 0; i < materials.name.size(); ++i) {
         MaterialRecord record{};
         record.first_component = static_cast<uint32_t>(compiled.components.size());
-        bool all_delta = true;
+        bool all_delta = true, any_diffuse = false;
         for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
             const BxdfComponent &component = materials.component[materials.first_component[i] + c];
             if (!(component.weight.maxCoeff() > 0.0f)) {
@@ -269,12 +274,15 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             record.flags |=
                 compiled_component.alpha_x != compiled_component.alpha_y ? MATERIAL_TURNS : 0u;
             all_delta = all_delta && is_delta(compiled_component.kind);
+            any_diffuse = any_diffuse || is_diffuse(compiled_component.kind);
             compiled.components.push_back(compiled_component);
         }
         record.component_count =
             static_cast<uint32_t>(compiled.components.size()) - record.first_component;
         record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
                         (all_delta ? MATERIAL_DELTA : 0u);
+        record.flags |=
+            any_diffuse && (record.flags & MATERIAL_BOUNDARY) == 0 ? MATERIAL_GUIDED : 0u;
         if (i < materials.normal_map.size() && record.component_count > 0) {
             compile_normal_map(materials.normal_map[i], compiled, record, features);
             if (is_mirrored(scene.textures, materials.normal_map[i].texture)) {

@@ -94,7 +94,8 @@ void SceneBuffers::update(DeviceContext &device, const CompiledScene &former,
 // The lists are in the order of the parameters in kernels/scene_view.h.
 StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh &bvh,
                                        FeatureMask features,
-                                       const Buffer<uint32_t> &emission_guide_) const {
+                                       const Buffer<uint32_t> &emission_guide_,
+                                       const Buffer<uint32_t> &scatter_guide_) const {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     using Arguments = std::vector<KernelArgument>;
     Arguments hierarchy, opacity, shapes, shading;

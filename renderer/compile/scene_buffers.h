@@ -23,10 +23,11 @@ class SceneBuffers {
                 SceneParts parts);
 
     /// Returns the arguments of the stage inputs tracing, shading and scene, for stages with these
-    /// features. The BVH is read only if the scene has triangles. Without `emission_guide`,
-    /// emission is not guided.
+    /// features. The BVH is read only if the scene has triangles. Without a guide,
+    /// paths are not guided.
     StageArguments arguments(const CompiledScene &compiled, const Bvh &bvh, FeatureMask features,
-                             const Buffer<uint32_t> &emission_guide = {}) const;
+                             const Buffer<uint32_t> &emission_guide = {},
+                             const Buffer<uint32_t> &scatter_guide = {}) const;
 
     /// Calls visit(buffer) for every buffer.
     template <typename Visit>

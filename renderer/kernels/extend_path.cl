@@ -28,8 +28,8 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
     continued.count = ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(stream)) {
         const Path path = shaded_path_at(&scene, stream, i, i_end);
-        if (scatter(path, &scene, settings,
-                    scatter_words_at(&words, stream, i, i_end, settings, first_sample))) {
+        if (extend(path, &scene, settings, film,
+                   scatter_words_at(&words, stream, i, i_end, settings, first_sample))) {
             push_slot(&continued, path.slot);
         } else {
             prefetch_film(path, film);

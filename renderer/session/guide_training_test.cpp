@@ -97,9 +97,9 @@ TEST(GuideTraining, GivesTheSameTableWhateverTheStreams) {
     settings.stream_capacity = 300;
     settings.group_size = 16;
     settings.stream_chunk = 7;
-    EXPECT_EQ(pilot_of(ring(), settings).guide->words, expected.guide->words);
+    EXPECT_EQ(pilot_of(ring(), settings).emission_guide->words, expected.emission_guide->words);
     settings.seed = 7;
-    EXPECT_NE(pilot_of(ring(), settings).guide->words, expected.guide->words);
+    EXPECT_NE(pilot_of(ring(), settings).emission_guide->words, expected.emission_guide->words);
 }
 
 // Powers of two keep all digits. Squares of the contributions would overflow, or vanish.
@@ -114,7 +114,7 @@ TEST(GuideTraining, DoesNotDependOnTheUnitOfRadiance) {
         set("light_1", 17, 9.5, 5);
         set("light_2", 6, 10.5, 19);
         scene.update(0);
-        return pilot_of(scene, settings_with("trained")).guide->words;
+        return pilot_of(scene, settings_with("trained")).emission_guide->words;
     };
     const std::vector<uint32_t> expected = words(1);
     EXPECT_EQ(words(0x1p80), expected);

@@ -10,6 +10,7 @@
 
 #include "renderer/compile/device_scene.h"
 #include "renderer/compile/emission_guide.h"
+#include "renderer/compile/scatter_guide.h"
 #include "renderer/integrators/unseen_light.h"
 #include "renderer/scene/scene.h"
 #include "renderer/session/render_session.h"
@@ -129,6 +130,42 @@ const PilotTrial &cheapest_of_the_efficient(const std::vector<PilotTrial> &trial
     return *cheapest;
 }
 
+/// The light paths of a pilot that train the guides which its settings ask for.
+class GuideTraining {
+  public:
+    GuideTraining(const CompiledScene &scene, const RenderSettings &settings)
+        : scene_(scene),
+          trains_emission_(trains_emission_guide(settings)),
+          trains_scattering_(trains_scatter_guide(settings)) {}
+
+    bool is_needed() const { return trains_emission_ || trains_scattering_; }
+
+    void add(const TrialPaths &light) {
+        if (trains_emission_) {
+            paths_.insert(paths_.end(), light.paths.begin(), light.paths.end());
+        }
+        hits_.insert(hits_.end(), light.hits.begin(), light.hits.end());
+    }
+
+    /// Sets the guides of RenderSettings or Pilot, that of emission with the weights of a trial.
+    template <typename Guided>
+    void set_guides(Guided &guided, size_t trial) const {
+        if (trains_emission_) {
+            guided.emission_guide = std::make_shared<const EmissionGuide>(
+                make_guide(scene_, emission_moments(scene_, paths_, trial)));
+        }
+        if (trains_scattering_) {
+            guided.scatter_guide = std::make_shared<const ScatterGuide>(make_scatter_guide(hits_));
+        }
+    }
+
+  private:
+    const CompiledScene &scene_;
+    bool trains_emission_, trains_scattering_;
+    std::vector<PathTrials> paths_;
+    std::vector<TrainingHit> hits_;
+};
+
 /// Traces the first `count` paths of one pass and adds rays and times to those of `pilot`.
 TrialPaths trace(RenderSession &session, PassKind pass, size_t count, Pilot &pilot) {
     const RenderStats before = session.stats();
@@ -196,6 +233,13 @@ TrialPaths RenderSession::trace_trials(PassKind kind, size_t count) {
     s.run_pass(*pass, 0, 0, static_cast<uint32_t>(count));
     const std::vector<int64_t> words = pass->film.read();
     std::memcpy(found.paths.data(), words.data(), count * sizeof(PathTrials));
+    if (kind == PassKind::light && s.integrator.training_paths > 0) {
+        found.hits.resize(count * TRAINING_HITS);
+        std::memcpy(
+            found.hits.data(),
+            words.data() + s.integrator.training_paths * sizeof(PathTrials) / sizeof(words[0]),
+            found.hits.size() * sizeof(TrainingHit));
+    }
     s.wall_seconds += seconds_since(start);
     const StreamCounters counters = s.counters.read().front();
     found.nearest_rays = static_cast<double>(counters.nearest_rays);
@@ -203,13 +247,19 @@ TrialPaths RenderSession::trace_trials(PassKind kind, size_t count) {
     return found;
 }
 
-bool trains_guide(const RenderSettings &settings) {
+bool trains_emission_guide(const RenderSettings &settings) {
     return settings.guided_emission == GuidedEmission::trained &&
            settings.emission_guide == nullptr;
 }
 
+bool trains_scatter_guide(const RenderSettings &settings) {
+    return settings.guided_scattering == GuidedScattering::trained &&
+           settings.scatter_guide == nullptr;
+}
+
 bool needs_pilot(const RenderSettings &settings) {
-    return settings.light_paths == LIGHT_PATHS_AUTO || trains_guide(settings);
+    return settings.light_paths == LIGHT_PATHS_AUTO || trains_emission_guide(settings) ||
+           trains_scatter_guide(settings);
 }
 
 RenderSettings pilot_settings(const RenderSettings &settings) {
@@ -221,9 +271,11 @@ RenderSettings pilot_settings(const RenderSettings &settings) {
     if (settings.light_paths != LIGHT_PATHS_AUTO) {
         pilot.only_pass = PassKind::light;
     }
-    if (trains_guide(settings)) {
+    if (trains_emission_guide(settings)) {
         pilot.guided_emission = GuidedEmission::flat;
     }
+    pilot.stores_training_hits = trains_scatter_guide(settings);
+    pilot.guided_scattering = GuidedScattering::off;
     pilot.variance = pilot.separate_strategies = false;
     pilot.count_rays = RayCounts::in_all;
     pilot.convergence_error = 0;
@@ -251,13 +303,12 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                 RenderSettings settings) {
     const CompiledScene &compiled = shared->compiled();
     const bool chooses = settings.light_paths == LIGHT_PATHS_AUTO;
-    if (trains_guide(settings) && !is_trainable(compiled)) {
+    if (trains_emission_guide(settings) && !is_trainable(compiled)) {
         if (!chooses) {
             require_trainable(compiled);
         }
         settings.guided_emission = GuidedEmission::off;
     }
-    const bool trains = trains_guide(settings);
     Pilot pilot;
     pilot.light_paths = chooses ? 0 : light_paths_per_sample(settings);
     pilot.is_explicit = settings.strategies != PathStrategies::implicit_only;
@@ -269,32 +320,31 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                                                              static_cast<uint32_t>(settings.height))
                                                     .size();
     RenderSettings own = pilot_settings(settings);
-    std::vector<PathTrials> training;
-    TrialPaths light;
-    const auto train_guide = [&] {
-        training.insert(training.end(), light.paths.begin(), light.paths.end());
+    GuideTraining training(compiled, settings);
+    const auto weights = [&] {
         const double light_paths =
             pilot.light_paths > 0 ? pilot.light_paths : first_guide_paths * pixels;
-        return std::make_shared<const EmissionGuide>(make_guide(
-            compiled, emission_moments(compiled, training,
-                                       nearest_trial(light_paths / pixels, pilot.is_explicit))));
+        return nearest_trial(light_paths / pixels, pilot.is_explicit);
     };
     std::vector<size_t> sets{camera_paths};
-    if (trains) {
+    if (training.is_needed()) {
         RenderSettings flat = own;
         flat.only_pass = PassKind::light;
         RenderSession session(shared, scene, flat);
-        light = trace(session, PassKind::light, camera_paths / 4, pilot);
-        own.guided_emission = GuidedEmission::off;
+        training.add(trace(session, PassKind::light, camera_paths / 4, pilot));
+        if (trains_emission_guide(settings)) {
+            own.guided_emission = GuidedEmission::off;
+        }
         sets.insert(sets.begin(), camera_paths / 2);
     }
     for (const size_t light_paths : sets) {
-        if (trains) {
-            own.emission_guide = train_guide();
+        if (training.is_needed()) {
+            training.set_guides(own, weights());
             own.seed += 1u << 30;  // other paths
         }
         RenderSession session(shared, scene, own);
-        light = trace(session, PassKind::light, light_paths, pilot);
+        const TrialPaths light = trace(session, PassKind::light, light_paths, pilot);
+        training.add(light);
         if (chooses) {
             choose_light_paths(pilot, trace(session, PassKind::camera, camera_paths, pilot), light,
                                scene, settings);
@@ -303,8 +353,8 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
             }
         }
     }
-    if (trains && pilot.light_paths > 0) {
-        pilot.guide = train_guide();
+    if (pilot.light_paths > 0) {
+        training.set_guides(pilot, weights());
     }
     return pilot;
 }

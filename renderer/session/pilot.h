@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The pilot that chooses the number of light paths of truncated bidirectional path tracing and
-// whether it has explicit paths, and trains the guide of their emission.
+// whether it has explicit paths, and trains the guides of emission and of scattering.
 //
 // Light paths pay off where they find light that camera paths miss; elsewhere they only cost time.
 // One set of paths tells the variance for every number of light paths (P. Grittmann, O. Yazici,
@@ -37,22 +37,25 @@ struct Pilot {
     uint32_t light_paths = 0;
     /// Whether camera paths are connected to light samples: the pilot's choice, or the settings'.
     bool is_explicit = true;
-    /// The trained guide; null if the settings ask for none, or without light paths.
-    std::shared_ptr<const EmissionGuide> guide;
+    /// The trained guides; null if the settings ask for none, or without light paths.
+    std::shared_ptr<const EmissionGuide> emission_guide;
+    std::shared_ptr<const ScatterGuide> scatter_guide;
     uint64_t rays = 0;        ///< closest-hit and shadow rays
     double seconds = 0;       ///< device time
     double wall_seconds = 0;  ///< wall time, without compilation
 };
 
 /// Returns whether a guide must be trained: the settings ask for one and have none.
-bool trains_guide(const RenderSettings &settings);
+bool trains_emission_guide(const RenderSettings &settings);
+bool trains_scatter_guide(const RenderSettings &settings);
 
-/// Returns whether the settings need a pilot, to choose the number of light paths or to train a
-/// guide.
+/// Returns whether the settings need a pilot, to choose the number of light paths or to train
+/// guides.
 bool needs_pilot(const RenderSettings &settings);
 
 /// Returns the settings of the session that traces the paths of a pilot for `settings`. With a
-/// given number of light paths it has no camera pass. A guide that must be trained is flat there.
+/// given number of light paths it has no camera pass. An emission guide that must be trained is
+/// flat there.
 RenderSettings pilot_settings(const RenderSettings &settings);
 
 /// Returns the pixels in which a pilot traces camera paths, as y * width + x: a rank-1 lattice of
@@ -74,14 +77,14 @@ std::vector<uint32_t> pilot_pixels(uint32_t width, uint32_t height);
 /// rays. Variance and cost are the same in every run on one device, and so is the choice. The pilot
 /// uses its own seed; its samples are discarded.
 ///
-/// For `GuidedEmission::trained`, a quarter of the light paths under a flat guide train a guide.
-/// Camera paths and half of the light paths follow with that guide. Where light paths are of no use
-/// there, the pilot ends. Otherwise all paths are traced under the guide that both sets of light
-/// paths train; they choose, and all three sets of light paths train the final guide. Their weights
-/// are those of the power of 4 nearest to the number of light paths. Sums are added in the
-/// order of the paths, so the guide is the same in every run on one device. If the scene has no
-/// light to guide, or too many, there is no guide with `LIGHT_PATHS_AUTO`; otherwise `Error` (bad
-/// input) is thrown.
+/// To train guides, a quarter of the light paths are traced first. Camera paths and half of the
+/// light paths follow under the guides that these train. Where light paths are of no use there, the
+/// pilot ends. Otherwise all paths are traced under the guides that both sets of light paths train;
+/// they choose, and all three sets of light paths train the final guides. An emission guide takes
+/// the weights of the power of 4 nearest to the number of light paths; a scatter guide takes the
+/// hits (`make_scatter_guide`). Sums are added in the order of the paths, so the guides are the
+/// same in every run on one device. If the scene has no light to guide, or too many, there is no
+/// emission guide with `LIGHT_PATHS_AUTO`; otherwise `Error` (bad input) is thrown.
 Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                 RenderSettings settings);
 

@@ -43,6 +43,7 @@ struct RenderStats {
 /// What the paths of one pass of a pilot found.
 struct TrialPaths {
     std::vector<PathTrials> paths;
+    std::vector<TrainingHit> hits;             ///< if the settings have `stores_training_hits`
     double nearest_rays = 0, shadow_rays = 0;  ///< of all of them
 };
 

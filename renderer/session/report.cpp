@@ -22,8 +22,11 @@ Json pilot_report(const Pilot &pilot) {
                    {"rays", pilot.rays},
                    {"seconds", pilot.seconds},
                    {"seconds_wall", pilot.wall_seconds}};
-    if (pilot.guide != nullptr) {
-        report["guide"] = hash_of(*pilot.guide);
+    if (pilot.emission_guide != nullptr) {
+        report["guide"] = hash_of(*pilot.emission_guide);
+    }
+    if (pilot.scatter_guide != nullptr) {
+        report["scatter_guide"] = hash_of(*pilot.scatter_guide);
     }
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
@@ -132,6 +135,7 @@ void RenderSession::State::report_buffers(Json &report) const {
     };
     scene->visit_buffers(add);
     add(emission_guide);
+    add(scatter_guide);
     add(path_words);
     add(vertex_words);
     add(branch_vertices);
@@ -178,7 +182,7 @@ nlohmann::json RenderSession::report() const {
         {"rounds", counters.iterations},
         {"bvh", bvh_report(*s.scene, s.layout.bvh)},
     };
-    if (s.pilot.guide != nullptr || !s.pilot.trials.empty()) {
+    if (s.pilot.rays > 0) {
         report["pilot"] = pilot_report(s.pilot);
     }
     s.report_passes(report);

@@ -21,6 +21,10 @@ bool has_guided_emission(const RenderSettings &settings) {
            (settings.guided_emission == GuidedEmission::flat || settings.emission_guide != nullptr);
 }
 
+bool has_guided_scattering(const RenderSettings &settings) {
+    return has_light_pass(settings) && settings.scatter_guide != nullptr;
+}
+
 bool has_convergence_control(const RenderSettings &settings) {
     return settings.convergence_error > 0;
 }
@@ -87,6 +91,7 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::light_strategy, traces_both)
         .with(Feature::light_emitters, traces_both && settings.seen_emitters == SeenEmitters::mis)
         .with(Feature::guided_emission, has_guided_emission(settings))
+        .with(Feature::guided_scattering, has_guided_scattering(settings))
         .with(Feature::light_path_trials, settings.light_path_trials)
         .with(Feature::roulette, settings.termination == Termination::roulette)
         .with(Feature::late_roulette,

@@ -70,6 +70,14 @@ void require_consistent_light_paths(const RenderSettings &settings) {
             "integrator.guided_emission=trained: not supported by {}; use off or truncated_bdpt",
             algorithm.name));
     }
+    if ((settings.guided_scattering == GuidedScattering::trained ||
+         settings.scatter_guide != nullptr) &&
+        (algorithm.light_paths != LightPaths::any || settings.light_paths == 0)) {
+        throw input_error(fmt::format(
+            "integrator.guided_scattering=trained: needs the light paths of truncated_bdpt, and {} "
+            "has none; use off",
+            settings.light_paths == 0 ? "integrator.light_paths=0" : algorithm.name));
+    }
     if (settings.guided_emission == GuidedEmission::trained && settings.light_paths == 0) {
         throw input_error(
             "integrator.guided_emission=trained: integrator.light_paths=0 leaves nothing to guide; "

@@ -101,6 +101,10 @@ const std::vector<Setting> &image_setting_table() {
          "through tables of directions whose bins are all equal, to test the tables; at most 64 "
          "lights; trained (truncated_bdpt only): through tables that a pilot trains, for at most "
          "64 lights"},
+        {"integrator.guided_scattering", choice(&S::guided_scattering, guided_scatterings),
+         "how camera paths select their direction behind mirrors and smooth glass; off: by the "
+         "material; trained (truncated_bdpt only): half of them by tables of the light that light "
+         "paths of a pilot brought there"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "bdpt: number N of vertices stored per light path; paths of more than N + 1 scattering "
          "events are sampled by the strategies of truncated_bdpt only"},

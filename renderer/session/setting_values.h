@@ -40,6 +40,12 @@ inline constexpr Named<GuidedEmission> guided_emissions[] = {{GuidedEmission::of
                                                              {GuidedEmission::flat, "flat"},
                                                              {GuidedEmission::trained, "trained"}};
 
+/// Directions in which camera paths scatter behind mirrors and glass: those of the material, or
+/// also by tables that a pilot trains.
+enum class GuidedScattering { off, trained };
+inline constexpr Named<GuidedScattering> guided_scatterings[] = {
+    {GuidedScattering::off, "off"}, {GuidedScattering::trained, "trained"}};
+
 /// How paths end.
 enum class Termination : uint32_t {
     roulette = TERMINATION_ROULETTE,

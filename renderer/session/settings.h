@@ -12,6 +12,7 @@
 #include "renderer/bvh/bvh.h"
 #include "renderer/compile/compile_scene.h"
 #include "renderer/compile/emission_guide.h"
+#include "renderer/compile/scatter_guide.h"
 #include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
 #include "renderer/session/setting_values.h"
@@ -45,6 +46,8 @@ struct RenderSettings {
     std::optional<PassKind> only_pass;
     /// Whether paths are traced for a pilot and not for an image (session/pilot.h).
     bool light_path_trials = false;
+    /// Whether such a pilot stores the hits of light paths too, to train a scatter guide.
+    bool stores_training_hits = false;
     /// Whether the image has a layer per strategy, with its contribution; this excludes `variance`.
     bool separate_strategies = false;
 
@@ -58,6 +61,10 @@ struct RenderSettings {
     /// The tables that guide emission, made for the lights of the scene; null: none. A session sets
     /// it for `GuidedEmission::flat` and `trained`.
     std::shared_ptr<const EmissionGuide> emission_guide;
+    GuidedScattering guided_scattering = GuidedScattering::off;
+    /// The tables that guide camera paths; null: none. A session sets it for
+    /// `GuidedScattering::trained`.
+    std::shared_ptr<const ScatterGuide> scatter_guide;
     /// Vertices of each light path that bdpt stores. All strategies sample paths of at most one
     /// scattering event more than that.
     uint32_t bdpt_vertices = 8;
@@ -143,6 +150,9 @@ bool has_light_pass(const RenderSettings &settings);
 
 /// Returns whether tables guide the directions of light paths.
 bool has_guided_emission(const RenderSettings &settings);
+
+/// Returns whether tables guide camera paths behind mirrors and glass.
+bool has_guided_scattering(const RenderSettings &settings);
 
 /// Returns whether the film holds a sum for each Sobol sequence, for the variance layer.
 bool has_sequence_sums(const RenderSettings &settings);

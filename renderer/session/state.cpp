@@ -82,18 +82,26 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
 }
 
 /// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses, leaves out explicit paths if it
-/// does, and sets the guide that it trains. Without light paths there is no guide. Returns the
-/// pilot, which is empty if none was needed.
+/// does, and sets the guides that it trains. Without light paths there are none. Returns the pilot,
+/// which is empty if none was needed.
 Pilot apply_pilot(RenderSettings &settings, const std::shared_ptr<DeviceScene> &scene,
                   const Scene &graph) {
+    if (trains_scatter_guide(settings) && !is_scatter_guidable(scene->compiled())) {
+        settings.guided_scattering = GuidedScattering::off;
+    }
     if (!needs_pilot(settings)) {
         return {};
     }
     Pilot pilot = run_pilot(scene, graph, settings);
-    if (pilot.guide != nullptr) {
-        settings.emission_guide = pilot.guide;
-    } else if (trains_guide(settings)) {
+    if (pilot.emission_guide != nullptr) {
+        settings.emission_guide = pilot.emission_guide;
+    } else if (trains_emission_guide(settings)) {
         settings.guided_emission = GuidedEmission::off;
+    }
+    if (pilot.scatter_guide != nullptr) {
+        settings.scatter_guide = pilot.scatter_guide;
+    } else if (trains_scatter_guide(settings)) {
+        settings.guided_scattering = GuidedScattering::off;
     }
     if (settings.light_paths == LIGHT_PATHS_AUTO) {
         settings.light_paths = pilot.light_paths;
@@ -165,7 +173,7 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
                               to_string(*settings.only_pass))
                 : fmt::format("{}: the scene has no light", settings.algorithm->name));
     }
-    set_guide();
+    set_guides();
     set_config();
     scene->require(graph, features);
     allocate_streams();
@@ -174,7 +182,10 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
     warm_up();
 }
 
-void RenderSession::State::set_guide() {
+void RenderSession::State::set_guides() {
+    if (has_guided_scattering(settings)) {
+        scatter_guide = Buffer<uint32_t>(device, "scatter_guide", settings.scatter_guide->words);
+    }
     if (!has_guided_emission(settings)) {
         return;
     }
@@ -192,9 +203,9 @@ void RenderSession::State::set_config() {
                                  ? ""
                                  : fmt::format("crop {} {} {} {}", window.x, window.y,
                                                window.full_width, window.full_height);
-    const std::string guide =
-        has_guided_emission(settings) ? hash_of(*settings.emission_guide) : "";
-    config = content_hash(scene->hash() + image_settings(settings).dump() + crop + guide);
+    std::string guides = has_guided_emission(settings) ? hash_of(*settings.emission_guide) : "";
+    guides += has_guided_scattering(settings) ? hash_of(*settings.scatter_guide) : "";
+    config = content_hash(scene->hash() + image_settings(settings).dump() + crop + guides);
 }
 
 bool RenderSession::State::update(const Scene &graph) {
@@ -203,11 +214,13 @@ bool RenderSession::State::update(const Scene &graph) {
         scene->compiled().lighting.light_count != light_count) {
         return false;
     }
-    if (settings.guided_emission == GuidedEmission::trained && scene_version != scene->version()) {
+    if ((settings.guided_emission == GuidedEmission::trained ||
+         settings.guided_scattering == GuidedScattering::trained) &&
+        scene_version != scene->version()) {
         return false;
     }
     if (scene_version != scene->version()) {
-        set_guide();
+        set_guides();
         scene_version = scene->version();
         StageArguments arguments = scene_arguments();
         for (CompiledPass &pass : passes) {
@@ -277,10 +290,16 @@ void RenderSession::State::allocate_trials() {
     const std::vector<uint32_t> pixels_of_lattice =
         pilot_pixels(static_cast<uint32_t>(settings.width), static_cast<uint32_t>(settings.height));
     trial_pixels = Buffer<uint32_t>(device, "trial_pixels", pixels_of_lattice);
+    const size_t paths = TRIAL_SAMPLES * pixels_of_lattice.size();
+    const size_t bytes_of_path =
+        sizeof(PathTrials) +
+        (settings.stores_training_hits ? TRAINING_HITS * sizeof(TrainingHit) : 0);
+    integrator.training_paths = settings.stores_training_hits ? static_cast<uint32_t>(paths) : 0;
     for (CompiledPass &pass : passes) {
-        pass.film = Buffer<int64_t>(
-            device, "trials",
-            TRIAL_SAMPLES * pixels_of_lattice.size() * (sizeof(PathTrials) / sizeof(int64_t)));
+        pass.film = Buffer<int64_t>(device, "trials", paths * bytes_of_path / sizeof(int64_t));
+        if (settings.stores_training_hits) {
+            pass.film.clear();  // paths store only the hits that they have
+        }
     }
 }
 
@@ -352,7 +371,7 @@ CameraRecord RenderSession::State::camera() const {
 StageArguments RenderSession::State::scene_arguments() {
     const CameraRecord record = camera();
     emitters_in_view = rtrays::emitters_in_view(scene->compiled(), record);
-    StageArguments arguments = scene->arguments(features, emission_guide);
+    StageArguments arguments = scene->arguments(features, emission_guide, scatter_guide);
     arguments[StageInput::camera] = {record};
     return arguments;
 }

@@ -126,7 +126,7 @@ struct RenderSession::State {
 
     /// Makes the flat guide if the settings ask for it, and copies the guide to the device. Throws
     /// `Error` (bad input) if the guide does not fit the scene.
-    void set_guide();
+    void set_guides();
 
     void set_config();
 
@@ -239,7 +239,7 @@ struct RenderSession::State {
     std::string config;            ///< hash of scene and settings
     bool emitters_in_view = true;  ///< `emitters_in_view` of the camera and the scene
 
-    Buffer<uint32_t> emission_guide;
+    Buffer<uint32_t> emission_guide, scatter_guide;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> vertex_words;
     Buffer<uint32_t> branch_vertices;

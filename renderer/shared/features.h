@@ -91,6 +91,7 @@
     X(dome, "uniform radiance from infinity")                                                 \
     X(environment, "radiance from infinity by an image")                                      \
     X(guided_emission, "tables guide the directions in which light paths start")              \
+    X(guided_scattering, "tables guide camera paths behind mirrors and glass")                \
     /* camera and film */                                                                     \
     X(orthographic, "the rays of the camera are parallel")                                    \
     X(lens, "the camera has an aperture, or is far from the scene")                           \

@@ -55,6 +55,9 @@ typedef struct IntegratorSettings {
     uint film_width;   ///< pixels
     uint full_width;   ///< pixels
     uint first_pixel;  ///< index in the full picture of the film's first pixel
+    /// Number of paths before whose hits a pilot stores their trials (shared/light_path_trials.h);
+    /// 0: it stores no hits.
+    uint training_paths;
 } IntegratorSettings;
 
 /// Returns whether all strategies of full bidirectional path tracing exist for paths of `events`
@@ -65,5 +68,5 @@ DEVICE bool all_strategies(IntegratorSettings settings, uint events) {
 }
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 60, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 64, "layout shared with the device");
 #endif

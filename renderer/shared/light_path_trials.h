@@ -36,9 +36,22 @@ typedef struct PathTrials {
     /// By trial: luminance of a camera path, root of the sum of the squared luminances of a light
     /// path's contributions.
     float value[LIGHT_PATH_TRIALS];
-    /// Light paths under a guide: light and bin of the start (shared/emission_guide.h), as light *
+    /// Light paths under a guide: light and bin of the start (shared/guide_layout.h), as light *
     /// GUIDE_BINS + row * GUIDE_COLUMNS + column, with bin 0 for a light without a table.
     uint start;
     /// Light paths under a guide: the probability with which the light was selected, times g.
     float start_density;
 } PathTrials;
+
+/// Number of hits of a light path that train a scatter guide. They follow the trials of all paths,
+/// those of a path one after the other.
+#define TRAINING_HITS 4u
+
+/// Light that arrives at a surface where camera paths may be guided, after 1 to TRAINING_HITS
+/// events: where it arrives at once, camera paths sample the light.
+typedef struct TrainingHit {
+    float position[3];
+    float power;  ///< luminance of the path's throughput, W; 0: there is no such hit
+    uint side;    ///< as in shared/guide_layout.h, of the normal on the side of the light
+    uint bin;     ///< of the direction to where it comes from, as row * GUIDE_COLUMNS + column
+} TrainingHit;

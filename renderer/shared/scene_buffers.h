@@ -45,6 +45,8 @@
     X(FEATURE_environment, float, environment_texels)            \
     X(FEATURE_environment, uint, environment_ends)
 
-/// The emission guide (shared/emission_guide.h), which belongs to a session. It is null if emission
-/// is not guided.
-#define GUIDE_BUFFERS(X) X(FEATURE_guided_emission, uint, emission_guide)
+/// The guides (shared/guide_layout.h), which belong to a session. They are null where paths are not
+/// guided.
+#define GUIDE_BUFFERS(X)                             \
+    X(FEATURE_guided_emission, uint, emission_guide) \
+    X(FEATURE_guided_scattering, uint, scatter_guide)

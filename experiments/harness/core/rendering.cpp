@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "experiments/harness/core/rendering.h"
 
+#include "renderer/compile/device_scene.h"
 #include "renderer/session/pilot.h"
 
 namespace rtrays {
 
 void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device) {
+    const auto shared = std::make_shared<DeviceScene>(
+        scene, device_scene_settings(settings, device.info()), device);
     if (needs_pilot(settings)) {
-        RenderSession(scene, pilot_settings(settings), device);
+        RenderSession(shared, scene, pilot_settings(settings));
     }
-    if (trains_guide(settings)) {
+    if (trains_emission_guide(settings)) {
         settings.guided_emission = GuidedEmission::flat;
+    }
+    if (trains_scatter_guide(settings) && is_scatter_guidable(shared->compiled())) {
+        settings.scatter_guide = std::make_shared<const ScatterGuide>(make_scatter_guide({}));
+        RenderSession(shared, scene, pilot_settings(settings));
     }
     if (settings.light_paths == LIGHT_PATHS_AUTO) {
         settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     }
-    RenderSession session(scene, settings, device);
+    RenderSession session(shared, scene, settings);
     render_whole(session, 0, 1);
 }
 

@@ -71,7 +71,7 @@ DEVICE bool advance_path(Path path, PRIVATE const SceneView *scene, CameraRecord
         splat(path, scene, film);
         ++rays->shadow;
     }
-    return scatter(path, scene, settings,
-                   path_sample(settings, get_pixel(path), first_sample + get_sample(path),
-                               BLOCK_SCATTER(get_depth(path))));
+    return extend(path, scene, settings, film,
+                  path_sample(settings, get_pixel(path), first_sample + get_sample(path),
+                              BLOCK_SCATTER(get_depth(path))));
 }

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "renderer/kernels/bsdf/reverse.h"
+#include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/mis/truncated.h"
+#include "renderer/kernels/path/scatter_table.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
@@ -94,8 +97,10 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
     const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(path));
-    const BsdfSample sample = bsdf_sample(scene, hit.material, frame, uniform_float(words.w),
-                                          uniform_float(words.x), uniform_float(words.y));
+    float by_material;
+    const BsdfSample sample =
+        sample_guided(scene, hit.material, frame,
+                      scatter_table(path, scene, settings, hit, frame.ng), words, &by_material);
     if (!(sample.pdf_w > 0.0f)) {
         return false;
     }
@@ -111,8 +116,9 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     }
     const bool is_delta = !(sample.pdf_w < INFINITY);
     if (FEATURE_roulette && settings.termination == TERMINATION_ROULETTE) {
-        // Importance crosses boundaries unchanged.
-        const float scale_change = FEATURE_from_light ? 1.0f : sample.scale;
+        // Importance crosses boundaries unchanged. Roulette excludes the guide: it would end the
+        // paths that the guide sends to where light is.
+        const float scale_change = FEATURE_from_light ? 1.0f : sample.scale * by_material;
         if (!survives_roulette(path, settings, largest, scale_change, is_delta,
                                uniform_float(words.z), &throughput)) {
             return false;
@@ -131,4 +137,13 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
         continue_ratios(path, settings, depth, is_delta, event);
     }
     return true;
+}
+
+/// Scatters a path (`scatter`) after its hit has trained a guide, if the pilot of one traces it.
+DEVICE bool extend(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
+                   FilmView film, uint4 words) {
+    if (FEATURE_light_path_trials && FEATURE_from_light) {
+        store_training_hit(path, scene, settings, (GLOBAL PathTrials *)film.words);
+    }
+    return scatter(path, scene, settings, words);
 }

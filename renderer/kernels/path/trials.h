@@ -3,9 +3,11 @@
 // FEATURE_light_path_trials nothing here is called.
 #pragma once
 
+#include "renderer/kernels/bsdf/guided_scattering.h"
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/texture/texture.h"
+#include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_path_trials.h"
 #include "renderer/shared/path_state.h"
 
@@ -86,6 +88,32 @@ DEVICE void add_splat_trials(Path path) {
         const float ratio = greater > 0.0f ? fmin(found, added) / greater : 0.0f;
         set_trial_value(path, trial, greater * sqrt(fma(ratio, ratio, 1.0f)));
     }
+}
+
+/// Stores the hit of a light path that may train a scatter guide. `list` has the trials of all
+/// paths.
+DEVICE void store_training_hit(Path path, PRIVATE const SceneView *scene,
+                               IntegratorSettings settings, GLOBAL PathTrials *list) {
+    const uint depth = get_depth(path), primitive = get_hit_primitive(path);
+    if (settings.training_paths == 0u || depth == 0u || depth > TRAINING_HITS ||
+        primitive == NO_HIT) {
+        return;
+    }
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
+    if ((scene->materials[hit.material].flags & MATERIAL_GUIDED) == 0u) {
+        return;
+    }
+    const float3 from = -get_ray_direction(path);
+    const float3 normal = hit.point.normal;
+    const GuideBin bin = sphere_bin(from);
+    GLOBAL TrainingHit *hits = (GLOBAL TrainingHit *)(list + settings.training_paths);
+    GLOBAL TrainingHit *stored = hits + get_trial_item(path) * TRAINING_HITS + (depth - 1u);
+    stored->position[0] = hit.point.position.x;
+    stored->position[1] = hit.point.position.y;
+    stored->position[2] = hit.point.position.z;
+    stored->power = rec709_luminance(get_throughput(path));
+    stored->side = guide_side(dot(normal, from) < 0.0f ? -normal : normal);
+    stored->bin = bin.row * GUIDE_COLUMNS + bin.column;
 }
 
 /// Writes what a path found to the list of all paths.

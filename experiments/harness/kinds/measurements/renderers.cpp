@@ -30,7 +30,8 @@ std::vector<RenderSettings> own_settings(int width, int height) {
     const Json sobol = {{"integrator.sampler", "sobol"}};
     const Json automatic = {{"integrator.sampler", "sobol"},
                             {"integrator.light_paths", "auto"},
-                            {"integrator.guided_emission", "trained"}};
+                            {"integrator.guided_emission", "trained"},
+                            {"integrator.guided_scattering", "trained"}};
     const std::pair<const Algorithm *, Json> chosen[] = {
         {&algorithms::path_tracing, Json::object()},
         {&algorithms::path_tracing, sobol},
