@@ -54,8 +54,8 @@ class Planted(unittest.TestCase):
         self.assertEqual(self.offences(stages.check_includes), [])
 
     def test_word_read_by_a_body(self):
-        planted = (SCATTER, "get_throughput(path)", "get_shadow_vector(path)")
-        rules = ("reads shadow_vector", "does not touch throughput; reads")
+        planted = (SCATTER, "get_roulette_scale(path)", "get_shadow_vector(path)")
+        rules = ("reads shadow_vector", "does not touch roulette_scale; reads")
         self.expect(stages.check_stages, planted, *rules)
 
     def test_word_that_is_not_touched(self):
