@@ -62,6 +62,11 @@ bool is_diffuse(uint32_t kind) {
            kind == BXDF_DISNEY_DIFFUSE;
 }
 
+/// Returns whether a component is Lambert's without a Fresnel term.
+bool is_plain_lambert(const BxdfRecord &component) {
+    return component.kind == BXDF_LAMBERT && (component.flags & FRESNEL_MASK) == FRESNEL_IDEAL;
+}
+
 bool refracts(uint32_t kind) {
     return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
 }
@@ -281,6 +286,9 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             static_cast<uint32_t>(compiled.components.size()) - record.first_component;
         record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
                         (all_delta ? MATERIAL_DELTA : 0u);
+        if (record.component_count == 1 && is_plain_lambert(compiled.components.back())) {
+            record.flags |= MATERIAL_LAMBERT;
+        }
         record.flags |=
             any_diffuse && (record.flags & MATERIAL_BOUNDARY) == 0 ? MATERIAL_GUIDED : 0u;
         if (i < materials.normal_map.size() && record.component_count > 0) {

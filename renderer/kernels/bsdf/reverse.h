@@ -60,10 +60,23 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
     return shares > 0.0f ? own / shares : 0.0f;
 }
 
+/// log2 of 1 / pi.
+#define LOG2_INV_PI (-1.6514961f)
+
+/// Returns whether a hit reflects by Lambert's law about the geometric normal. The density of a
+/// direction per projected solid angle is then 1 / pi, whatever the other direction. Importance has
+/// the weight of radiance.
+DEVICE bool is_lambertian(PRIVATE const SceneView *scene, SurfaceHit hit) {
+    const float3 ns = hit.normal, ng = hit.point.normal;
+    return FEATURE_lambert &&
+           (scene->materials[hit.material].flags & (MATERIAL_LAMBERT | MATERIAL_MAPPED)) ==
+               MATERIAL_LAMBERT &&
+           (!FEATURE_smooth_normals || (ns.x == ng.x && ns.y == ng.y && ns.z == ng.z));
+}
+
 /// Returns the event of `sample`, which was sampled in `frame` at `hit`, in both directions.
 DEVICE ScatterEvent scatter_event(PRIVATE const SceneView *scene, SurfaceHit hit,
                                   SurfaceFrame frame, BsdfSample sample) {
-    const SurfaceFrame back = shading_frame(scene, hit, sample.wi);
     const float cos_wo = fabs(dot(frame.ng, frame.wo));
     const float cos_wi = fabs(dot(frame.ng, sample.wi));
     ScatterEvent event = irreversible_event();
@@ -71,6 +84,13 @@ DEVICE ScatterEvent scatter_event(PRIVATE const SceneView *scene, SurfaceHit hit
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
         return event;
     }
+    if (is_lambertian(scene, hit)) {
+        event.log_forward = LOG2_INV_PI;
+        event.log_reverse_ratio = 0.0f;
+        event.importance = sample.weight;
+        return event;
+    }
+    const SurfaceFrame back = shading_frame(scene, hit, sample.wi);
     if (FEATURE_delta && !(sample.pdf_w < INFINITY)) {
         float bend = 1.0f;
         if (FEATURE_smooth_normals) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/bsdf/reverse.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/math/logarithm.h"
@@ -35,9 +36,13 @@ DEVICE float light_over_explicit(Path path, PRIVATE const SceneView *scene, Surf
     if (depth == 0u || (!all && !(log_r > -INFINITY))) {
         return log_r + log_arrival;  // MIS (12), k = 2
     }
-    const SurfaceFrame back = shading_frame(scene, hit, light.wi);
     // log2 of b_{k-1}, per projected solid angle.
-    const float log_b = log2_quotient(light_path_pdf_w(scene, hit.material, back, wo), cos_wo);
+    const float log_b =
+        is_lambertian(scene, hit)
+            ? LOG2_INV_PI
+            : log2_quotient(
+                  light_path_pdf_w(scene, hit.material, shading_frame(scene, hit, light.wi), wo),
+                  cos_wo);
     if (all) {
         // The bracket of MIS (21) at x_{k-1}.
         return log_arrival + strategies_before(get_log_strategies(path),
