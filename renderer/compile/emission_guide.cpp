@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "renderer/base/error.h"
-#include "renderer/base/files.h"
 #include "renderer/compile/guide_table.h"
 
 namespace rtrays {
@@ -264,11 +263,6 @@ void require_guide_for(const CompiledScene &scene, const EmissionGuide &guide) {
         throw input_error(
             "emission guide: it does not fit the lights of the scene; make it for this scene");
     }
-}
-
-std::string hash_of(const EmissionGuide &guide) {
-    return content_hash(std::string(reinterpret_cast<const char *>(guide.words.data()),
-                                    guide.words.size() * sizeof(uint32_t)));
 }
 
 }  // namespace rtrays

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "renderer/compile/compile_scene.h"
@@ -68,8 +67,5 @@ EmissionGuide make_guide(const CompiledScene &scene, const EmissionMoments &mome
 /// Throws `Error` (bad input) unless the guide is one for the lights of `scene`: their number, and
 /// tables for those that take one.
 void require_guide_for(const CompiledScene &scene, const EmissionGuide &guide);
-
-/// Returns the hash of the guide's words.
-std::string hash_of(const EmissionGuide &guide);
 
 }  // namespace rtrays

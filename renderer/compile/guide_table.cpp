@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "renderer/base/files.h"
 #include "renderer/compile/compile_scene.h"
 
 namespace rtrays {
@@ -23,6 +24,11 @@ uint32_t append_guide_table(const std::vector<double> &bins, std::vector<uint32_
         append_selection({row, row + GUIDE_COLUMNS}, words);
     }
     return first;
+}
+
+std::string guide_hash(const std::vector<uint32_t> &words) {
+    return content_hash(
+        std::string(reinterpret_cast<const char *>(words.data()), words.size() * sizeof(uint32_t)));
 }
 
 }  // namespace rtrays

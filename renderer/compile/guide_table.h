@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "renderer/shared/guide_layout.h"
@@ -17,6 +18,9 @@ void append_selection(const std::vector<double> &weights, std::vector<uint32_t> 
 /// Appends the table of GUIDE_BINS bins, by row and column, with the given weights, which are
 /// positive. Returns the index of its first word.
 uint32_t append_guide_table(const std::vector<double> &bins, std::vector<uint32_t> &words);
+
+/// Returns the hash of a guide's words.
+std::string guide_hash(const std::vector<uint32_t> &words);
 
 /// Calls visit(bin, weight) for a bin and its neighbours, with the weights 1, 1/2 (edges) and 1/4
 /// (corners). The last column is a neighbour of the first.

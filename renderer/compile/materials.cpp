@@ -57,6 +57,7 @@ constexpr std::array<FresnelRow, 6> fresnels = {{
 bool is_delta(uint32_t kind) {
     return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
 }
+
 bool is_diffuse(uint32_t kind) {
     return kind == BXDF_LAMBERT || kind == BXDF_OREN_NAYAR || kind == BXDF_COATED_LAMBERT ||
            kind == BXDF_DISNEY_DIFFUSE;
@@ -286,9 +287,6 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             static_cast<uint32_t>(compiled.components.size()) - record.first_component;
         record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
                         (all_delta ? MATERIAL_DELTA : 0u);
-        if (record.component_count == 1 && is_plain_lambert(compiled.components.back())) {
-            record.flags |= MATERIAL_LAMBERT;
-        }
         record.flags |=
             any_diffuse && (record.flags & MATERIAL_BOUNDARY) == 0 ? MATERIAL_GUIDED : 0u;
         if (i < materials.normal_map.size() && record.component_count > 0) {
@@ -296,6 +294,10 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             if (is_mirrored(scene.textures, materials.normal_map[i].texture)) {
                 features = features.with(Feature::texture_mirror);
             }
+        }
+        if (record.component_count == 1 && (record.flags & MATERIAL_MAPPED) == 0 &&
+            is_plain_lambert(compiled.components.back())) {
+            record.flags |= MATERIAL_LAMBERT;
         }
         features = features
                        .with(Feature::composite,

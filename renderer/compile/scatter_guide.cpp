@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "renderer/base/files.h"
 #include "renderer/compile/guide_table.h"
 
 namespace rtrays {
@@ -142,11 +141,6 @@ ScatterGuide make_scatter_guide(const std::vector<TrainingHit> &hits) {
         builder.add_side(side, by_side[side].begin(), by_side[side].end());
     }
     return builder.take();
-}
-
-std::string hash_of(const ScatterGuide &guide) {
-    return content_hash(std::string(reinterpret_cast<const char *>(guide.words.data()),
-                                    guide.words.size() * sizeof(uint32_t)));
 }
 
 }  // namespace rtrays

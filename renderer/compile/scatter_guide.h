@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Scatter guides: from where light arrives, for camera paths behind mirrors and glass
-// (kernels/path/guided_scattering.h).
+// (kernels/bsdf/guided_scattering.h).
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "renderer/compile/compile_scene.h"
@@ -28,8 +27,5 @@ bool is_scatter_guidable(const CompiledScene &scene);
 /// that arrives, smoothed over neighbouring bins, and 1/20 uniformly. A side with less than 16 hits
 /// has none. Hits that are not finite, or have no power, are left out.
 ScatterGuide make_scatter_guide(const std::vector<TrainingHit> &hits);
-
-/// Returns the hash of the guide's words.
-std::string hash_of(const ScatterGuide &guide);
 
 }  // namespace rtrays

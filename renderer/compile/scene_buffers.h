@@ -23,8 +23,8 @@ class SceneBuffers {
                 SceneParts parts);
 
     /// Returns the arguments of the stage inputs tracing, shading and scene, for stages with these
-    /// features. The BVH is read only if the scene has triangles. Without a guide,
-    /// paths are not guided.
+    /// features. The BVH is read only if the scene has triangles. Without a guide, paths are not
+    /// guided.
     StageArguments arguments(const CompiledScene &compiled, const Bvh &bvh, FeatureMask features,
                              const Buffer<uint32_t> &emission_guide = {},
                              const Buffer<uint32_t> &scatter_guide = {}) const;

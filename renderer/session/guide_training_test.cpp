@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/compile/device_scene.h"
+#include "renderer/compile/guide_table.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/pilot.h"
@@ -21,6 +21,7 @@ namespace {
 
 using test::device;
 using test::film_words;
+using test::pilot_of;
 
 // A ring of mirrors under three lamps: only a few in a thousand of their rays meet it.
 Scene ring() {
@@ -34,12 +35,6 @@ RenderSettings settings_with(const std::string &guided_emission, uint32_t light_
     settings.light_paths = light_paths;
     settings.width = settings.height = 64;
     return settings;
-}
-
-Pilot pilot_of(const Scene &scene, const RenderSettings &settings) {
-    const auto shared = std::make_shared<DeviceScene>(
-        scene, device_scene_settings(settings, device().info()), device());
-    return run_pilot(shared, scene, settings);
 }
 
 struct Estimate {
@@ -156,7 +151,7 @@ TEST(GuideTraining, IsRecordedAndItsTimeIsCounted) {
     const nlohmann::json report = session.report(), &pilot = report.at("pilot");
     ASSERT_GT(pilot.at("light_paths"), 0);
     EXPECT_EQ(pilot.at("trials").size(), LIGHT_PATH_TRIALS);
-    EXPECT_EQ(pilot.at("guide"), hash_of(*session.settings().emission_guide));
+    EXPECT_EQ(pilot.at("guide"), guide_hash(session.settings().emission_guide->words));
     EXPECT_EQ(report.at("settings").at("integrator.guided_emission"), "trained");
     // Nothing is rendered yet: the times are those of the pilot.
     EXPECT_GT(pilot.at("seconds"), 0);

@@ -17,7 +17,10 @@ namespace rtrays {
 namespace {
 
 using test::device;
+using test::errors_off;
 using test::film_words;
+using test::ImageMean;
+using test::mean_of;
 using test::settings_of;
 
 const std::string sphere = R"({"name": "sphere", "geometry": {"type": "sphere", "radius": 0.3},
@@ -79,30 +82,6 @@ std::shared_ptr<const EmissionGuide> steep_guide(const Scene &scene) {
     return std::make_shared<const EmissionGuide>(make_guide(compiled, moments));
 }
 
-struct Mean {
-    double value, error;
-};
-
-/// Renders `samples` samples and returns the mean of the image.
-Mean mean_of(const Scene &scene, const RenderSettings &settings, uint64_t samples) {
-    RenderSession session(scene, settings, device());
-    session.render(0, samples);
-    const Image image = session.develop();
-    const std::vector<float> &red = image.channel("R"), &variance = image.channel("variance.R");
-    const auto count = static_cast<double>(red.size());
-    Mean mean{};
-    for (size_t i = 0; i < red.size(); ++i) {
-        mean.value += static_cast<double>(red[i]) / count;
-        mean.error += static_cast<double>(variance[i]) / (count * count);
-    }
-    mean.error = std::sqrt(mean.error);
-    return mean;
-}
-
-double errors_off(const Mean &a, const Mean &b) {
-    return std::abs(a.value - b.value) / std::hypot(a.error, b.error);
-}
-
 RenderSettings guided(const char *algorithm, std::shared_ptr<const EmissionGuide> guide,
                       uint32_t seed = 2) {
     RenderSettings settings = settings_of(algorithm);
@@ -115,10 +94,10 @@ RenderSettings guided(const char *algorithm, std::shared_ptr<const EmissionGuide
 TEST(GuidedRender, HasTheMeanOfPathTracing) {
     const Scene scene = room(sphere + panel + coin + point + dome);
     const auto guide = steep_guide(scene);
-    const Mean expected = mean_of(scene, settings_of("path_tracing"), 1024);
+    const ImageMean expected = mean_of(scene, settings_of("path_tracing"), 1024);
     EXPECT_LT(expected.error, 0.005 * expected.value) << "statistical power";
     for (const char *algorithm : {"truncated_bdpt", "bdpt"}) {
-        const Mean found = mean_of(scene, guided(algorithm, guide), 512);
+        const ImageMean found = mean_of(scene, guided(algorithm, guide), 512);
         EXPECT_LT(errors_off(found, expected), 3.4)
             << algorithm << " " << found.value << " " << expected.value;
         EXPECT_LT(found.error, 0.006 * expected.value) << "statistical power";
@@ -149,7 +128,7 @@ TEST(GuidedRender, FailsWhereAPlaceForgetsTheTable) {
              "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": -90}}]}]})",
         "discs", "discs");
     const auto guide = steep_guide(scene);
-    const Mean expected = mean_of(scene, settings_of("path_tracing"), 4096);
+    const ImageMean expected = mean_of(scene, settings_of("path_tracing"), 4096);
     const auto off = [&](const char *light_paths, const SourceOverlays &overlays) {
         RenderSettings settings = guided("truncated_bdpt", guide);
         apply_setting(settings, std::string("integrator.light_paths=") + light_paths);
@@ -200,7 +179,7 @@ TEST(GuidedRender, KeepsTheMeanInStiffCases) {
         box("case", R"({"scale": [0.4, 0.4, 0.4]}, {"translate": [-0.5, 1, -0.2]})");
     const Scene scene = room(point + sphere + panel + tube + hidden);
     const CompiledScene compiled = compile_scene(scene, {});
-    const Mean expected = mean_of(scene, settings_of("path_tracing"), 2048);
+    const ImageMean expected = mean_of(scene, settings_of("path_tracing"), 2048);
     EXPECT_LT(expected.error, 0.02 * expected.value) << "statistical power";
     EmissionMoments nothing(3);
     nothing[0].assign(GUIDE_BINS, 1.0);
@@ -215,14 +194,14 @@ TEST(GuidedRender, KeepsTheMeanInStiffCases) {
          {moments_of(compiled, {0}), moments_of(compiled, {300}), nothing, down}) {
         const auto guide = std::make_shared<const EmissionGuide>(make_guide(compiled, moments));
         for (const char *algorithm : {"truncated_bdpt", "light_tracing"}) {
-            const Mean found = mean_of(scene, guided(algorithm, guide), 512);
+            const ImageMean found = mean_of(scene, guided(algorithm, guide), 512);
             EXPECT_LT(errors_off(found, expected), 3.4)
                 << algorithm << " " << found.value << " " << expected.value;
         }
     }
     const RenderSettings trained =
         settings_of("truncated_bdpt", {"integrator.guided_emission=trained"});
-    const Mean found = mean_of(scene, trained, 512);
+    const ImageMean found = mean_of(scene, trained, 512);
     EXPECT_LT(errors_off(found, expected), 3.4) << found.value << " " << expected.value;
     const Scene blind =
         room(point + sphere + panel + tube + hidden +

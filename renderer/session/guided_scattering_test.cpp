@@ -4,15 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <cstring>
-#include <memory>
 #include <string>
 
-#include "renderer/compile/device_scene.h"
 #include "renderer/device/source.h"
 #include "renderer/import/json/scene_json.h"
-#include "renderer/session/pilot.h"
 #include "renderer/testing/errors.h"
 #include "renderer/testing/session_films.h"
 
@@ -20,7 +16,11 @@ namespace rtrays {
 namespace {
 
 using test::device;
+using test::errors_off;
 using test::film_words;
+using test::ImageMean;
+using test::mean_of;
+using test::pilot_of;
 using test::settings_of;
 
 /// Returns a ceiling and a floor next to a lamp, which also shines on them by way of a mirror at
@@ -62,41 +62,11 @@ RenderSettings guided(const std::vector<std::string> &assignments = {}) {
     return settings;
 }
 
-/// The mean of an image and its standard error, and the mean of the variances of its pixels.
-struct Mean {
-    double value = 0, error = 0, variance = 0;
-};
-
-Mean mean_of(const Scene &scene, const RenderSettings &settings, uint64_t samples) {
-    RenderSession session(scene, settings, device());
-    session.render(0, samples);
-    const Image image = session.develop();
-    const std::vector<float> &red = image.channel("R"), &variance = image.channel("variance.R");
-    const auto count = static_cast<double>(red.size());
-    Mean mean;
-    for (size_t i = 0; i < red.size(); ++i) {
-        mean.value += static_cast<double>(red[i]) / count;
-        mean.variance += static_cast<double>(variance[i]) / count;
-    }
-    mean.error = std::sqrt(mean.variance / count);
-    return mean;
-}
-
-double errors_off(const Mean &a, const Mean &b) {
-    return (a.value - b.value) / std::hypot(a.error, b.error);
-}
-
-Pilot pilot_of(const Scene &scene, const RenderSettings &settings) {
-    const auto shared = std::make_shared<DeviceScene>(
-        scene, device_scene_settings(settings, device().info()), device());
-    return run_pilot(shared, scene, settings);
-}
-
 TEST(GuidedScattering, KeepsTheMean) {
     const Scene scene = mirrored_ceiling("1");
-    const Mean expected = mean_of(scene, settings_of("path_tracing"), 8192),
-               found = mean_of(scene, guided(), 2048);
-    EXPECT_LT(std::abs(errors_off(found, expected)), 3.4) << found.value << " " << expected.value;
+    const ImageMean expected = mean_of(scene, settings_of("path_tracing"), 8192),
+                    found = mean_of(scene, guided(), 2048);
+    EXPECT_LT(errors_off(found, expected), 3.4) << found.value << " " << expected.value;
     EXPECT_LT(found.error, 0.005 * expected.value) << "statistical power";
 }
 
@@ -125,17 +95,17 @@ TEST(GuidedScattering, FailsWhereAPlaceForgetsTheGuide) {
     for (const auto &[what, file, search, replacement, scene] : errors) {
         RenderSettings settings = settings_of("truncated_bdpt");
         settings.only_pass = PassKind::camera;
-        const Mean expected = mean_of(scene, settings, 8192);
+        const ImageMean expected = mean_of(scene, settings, 8192);
         settings.scatter_guide = pilot_of(scene, guided()).scatter_guide;
-        const Mean found = mean_of(scene, settings, 2048);
-        EXPECT_LT(std::abs(errors_off(found, expected)), 3.4) << what;
+        const ImageMean found = mean_of(scene, settings, 2048);
+        EXPECT_LT(errors_off(found, expected), 3.4) << what;
         std::string text = device_source(file);
         const size_t at = text.find(search);
         ASSERT_NE(at, std::string::npos) << what;
         text.replace(at, std::strlen(search), replacement);
         settings.source_overlays = {{file, text}};
         const double off = errors_off(mean_of(scene, settings, 2048), expected);
-        EXPECT_GT(std::abs(off), 5) << what;
+        EXPECT_GT(off, 5) << what;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -144,7 +145,8 @@ class GuideTraining {
         if (trains_emission_) {
             paths_.insert(paths_.end(), light.paths.begin(), light.paths.end());
         }
-        hits_.insert(hits_.end(), light.hits.begin(), light.hits.end());
+        std::copy_if(light.hits.begin(), light.hits.end(), std::back_inserter(hits_),
+                     [](const TrainingHit &hit) { return hit.power != 0; });
     }
 
     /// Sets the guides of RenderSettings or Pilot, that of emission with the weights of a trial.

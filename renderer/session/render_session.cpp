@@ -88,7 +88,9 @@ void RenderSession::update(const Scene &scene) {
         if (settings.guided_emission == GuidedEmission::trained) {
             settings.emission_guide = nullptr;
         }
-        settings.scatter_guide = nullptr;
+        if (settings.guided_scattering == GuidedScattering::trained) {
+            settings.scatter_guide = nullptr;
+        }
         state_ = std::make_unique<State>(state_->scene, scene, settings);
         if (state_->pilot.rays > 0) {
             state_->pilot.trials = former.trials;

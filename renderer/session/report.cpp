@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/commit.h"
+#include "renderer/compile/guide_table.h"
 #include "renderer/session/state.h"
 #include "renderer/shared/path_state.h"
 
@@ -23,10 +24,10 @@ Json pilot_report(const Pilot &pilot) {
                    {"seconds", pilot.seconds},
                    {"seconds_wall", pilot.wall_seconds}};
     if (pilot.emission_guide != nullptr) {
-        report["guide"] = hash_of(*pilot.emission_guide);
+        report["guide"] = guide_hash(pilot.emission_guide->words);
     }
     if (pilot.scatter_guide != nullptr) {
-        report["scatter_guide"] = hash_of(*pilot.scatter_guide);
+        report["scatter_guide"] = guide_hash(pilot.scatter_guide->words);
     }
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},

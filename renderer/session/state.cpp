@@ -11,6 +11,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/compile/emitter_view.h"
+#include "renderer/compile/guide_table.h"
 #include "renderer/integrators/count_rays.h"
 #include "renderer/integrators/megakernel.h"
 #include "renderer/scene/scene.h"
@@ -203,8 +204,9 @@ void RenderSession::State::set_config() {
                                  ? ""
                                  : fmt::format("crop {} {} {} {}", window.x, window.y,
                                                window.full_width, window.full_height);
-    std::string guides = has_guided_emission(settings) ? hash_of(*settings.emission_guide) : "";
-    guides += has_guided_scattering(settings) ? hash_of(*settings.scatter_guide) : "";
+    std::string guides =
+        has_guided_emission(settings) ? guide_hash(settings.emission_guide->words) : "";
+    guides += has_guided_scattering(settings) ? guide_hash(settings.scatter_guide->words) : "";
     config = content_hash(scene->hash() + image_settings(settings).dump() + crop + guides);
 }
 
@@ -291,13 +293,13 @@ void RenderSession::State::allocate_trials() {
         pilot_pixels(static_cast<uint32_t>(settings.width), static_cast<uint32_t>(settings.height));
     trial_pixels = Buffer<uint32_t>(device, "trial_pixels", pixels_of_lattice);
     const size_t paths = TRIAL_SAMPLES * pixels_of_lattice.size();
-    const size_t bytes_of_path =
-        sizeof(PathTrials) +
-        (settings.stores_training_hits ? TRAINING_HITS * sizeof(TrainingHit) : 0);
     integrator.training_paths = settings.stores_training_hits ? static_cast<uint32_t>(paths) : 0;
     for (CompiledPass &pass : passes) {
+        const bool stores_hits = settings.stores_training_hits && pass.kind == PassKind::light;
+        const size_t bytes_of_path =
+            sizeof(PathTrials) + (stores_hits ? TRAINING_HITS * sizeof(TrainingHit) : 0);
         pass.film = Buffer<int64_t>(device, "trials", paths * bytes_of_path / sizeof(int64_t));
-        if (settings.stores_training_hits) {
+        if (stores_hits) {
             pass.film.clear();  // paths store only the hits that they have
         }
     }

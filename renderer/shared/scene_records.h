@@ -67,7 +67,8 @@ typedef struct MaterialRecord {
 #define MATERIAL_TURNS 8u    ///< anisotropic: its appearance depends on the tangent
 #define MATERIAL_MAPPED 16u  ///< a map tilts its shading normals
 #define MATERIAL_GUIDED 32u  ///< camera paths may be guided there: opaque, with a diffuse component
-#define MATERIAL_LAMBERT 64u  ///< reflects by one Lambert component alone, without a Fresnel term
+/// Reflects by one Lambert component alone, without a Fresnel term or a map of normals.
+#define MATERIAL_LAMBERT 64u
 
 /// One atomic BxDF of a material (renderer/scene/stores.h describes each).
 typedef struct BxdfRecord {

@@ -6,10 +6,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "renderer/compile/device_scene.h"
 #include "renderer/device/context.h"
+#include "renderer/session/pilot.h"
 #include "renderer/session/render_session.h"
 
 namespace rtrays::test {
@@ -57,22 +60,46 @@ inline void expect_same_bits_however_traced(const Scene &scene) {
     }
 }
 
+/// Returns what the pilot of a session with these settings finds.
+inline Pilot pilot_of(const Scene &scene, const RenderSettings &settings) {
+    const auto shared = std::make_shared<DeviceScene>(
+        scene, device_scene_settings(settings, device().info()), device());
+    return run_pilot(shared, scene, settings);
+}
+
+/// The mean of the red channel and its standard error, and the mean of the variances of its pixels.
+struct ImageMean {
+    double value = 0, error = 0, variance = 0;
+};
+
+/// Renders samples of a scene and returns the mean of the image.
+inline ImageMean mean_of(const Scene &scene, const RenderSettings &settings, uint64_t samples) {
+    RenderSession session(scene, settings, device());
+    session.render(0, samples);
+    const Image image = session.develop();
+    const std::vector<float> &red = image.channel("R"), &variance = image.channel("variance.R");
+    const auto count = static_cast<double>(red.size());
+    ImageMean mean;
+    for (size_t i = 0; i < red.size(); ++i) {
+        mean.value += static_cast<double>(red[i]) / count;
+        mean.variance += static_cast<double>(variance[i]) / count;
+    }
+    mean.error = std::sqrt(mean.variance / count);
+    return mean;
+}
+
+/// Returns how many standard errors lie between two means.
+inline double errors_off(const ImageMean &a, const ImageMean &b) {
+    return std::abs(a.value - b.value) / std::hypot(a.error, b.error);
+}
+
 /// Expects the mean of the red channel within 5 standard errors and a fraction `bias` of it.
 inline void expect_mean(const Scene &scene, const RenderSettings &settings, double expected,
                         double bias, const std::string &what = "") {
-    RenderSession session(scene, settings, device());
-    session.render(0, 256);
-    const Image image = session.develop();
-    const std::vector<float> &red = image.channel("R");
-    const auto count = static_cast<double>(red.size());
-    double mean = 0, variance = 0;
-    for (size_t i = 0; i < red.size(); ++i) {
-        mean += static_cast<double>(red[i]) / count;
-        variance += static_cast<double>(image.channel("variance.R")[i]) / (count * count);
-    }
-    EXPECT_NEAR(mean, expected, 5 * std::sqrt(variance) + bias * expected)
+    const ImageMean mean = mean_of(scene, settings, 256);
+    EXPECT_NEAR(mean.value, expected, 5 * mean.error + bias * expected)
         << what << ", " << settings.algorithm->name;
-    EXPECT_LT(std::sqrt(variance), 0.02 * expected) << "statistical power";
+    EXPECT_LT(mean.error, 0.02 * expected) << "statistical power";
 }
 
 }  // namespace rtrays::test

@@ -8,7 +8,7 @@
 // density g over the directions, from the light that arrived there in a pilot. The tail scatters
 // with
 //
-//   p^C = (1 - s) p + s g,  s = guide_share
+//   p^C = (1 - s) p + s g,  s = GUIDE_SHARE
 //
 // per solid angle, where p is the density of the material. p^C replaces p in p_I, in explicit paths
 // too, MIS (7).

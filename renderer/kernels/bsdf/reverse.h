@@ -68,9 +68,7 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
 /// the weight of radiance.
 DEVICE bool is_lambertian(PRIVATE const SceneView *scene, SurfaceHit hit) {
     const float3 ns = hit.normal, ng = hit.point.normal;
-    return FEATURE_lambert &&
-           (scene->materials[hit.material].flags & (MATERIAL_LAMBERT | MATERIAL_MAPPED)) ==
-               MATERIAL_LAMBERT &&
+    return FEATURE_lambert && (scene->materials[hit.material].flags & MATERIAL_LAMBERT) != 0u &&
            (!FEATURE_smooth_normals || (ns.x == ng.x && ns.y == ng.y && ns.z == ng.z));
 }
 

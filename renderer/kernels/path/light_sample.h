@@ -82,9 +82,11 @@ DEVICE bool connect_to_light(Path path, PRIVATE const SceneView *scene, Integrat
     if (FEATURE_implicit_light) {
         // p_I / p_E of MIS (7), thesis (2.73), both per solid angle.
         const bool by_hit = light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u;
-        const uint table = scatter_table(path, scene, settings, hit, frame.ng);
-        const float by_implicit =
-            by_hit ? guided_pdf_w(scene, table, bsdf.pdf_w, light.wi) / light.pdf_w : 0.0f;
+        float by_implicit = 0.0f;
+        if (by_hit) {
+            const uint table = scatter_table(path, scene, settings, hit, frame.ng);
+            by_implicit = guided_pdf_w(scene, table, bsdf.pdf_w, light.wi) / light.pdf_w;
+        }
         if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
             const float log_light =
                 light_over_explicit(path, scene, hit, frame.wo, light, settings);
