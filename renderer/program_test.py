@@ -353,8 +353,9 @@ class Program(unittest.TestCase):
                                 "--set", "integrator.sampler=independent")
         self.assertEqual(self.words(default), self.words(sobol))
         self.assertNotEqual(self.words(default), self.words(independent))
-        self.expect_error(2, ["other settings"], CORNELL, "-o", self.output(), "--spp", 4,
-                          "--resume", "--state", independent, *SMALL)
+        difference = "integrator.sampler = independent, and this render has sobol"
+        self.expect_error(2, ["rendered with " + difference], CORNELL, "-o", self.output(),
+                          "--spp", 4, "--resume", "--state", independent, *SMALL)
         later = self.film("later", "--samples", "2:4")
         self.expect_error(2, ["differ in integrator.sampler"],
                           "merge", independent, later, "-o", self.output())

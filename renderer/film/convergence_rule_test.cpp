@@ -262,7 +262,7 @@ FilmState stopped_film() {
     film.width = 2;
     film.height = 1;
     film.seed = 7;
-    film.config = "config";
+    film.config = {{"scene", "hash"}};
     film.add_range({0, 4});
     film.words = films.film;
     film.convergence = ConvergenceState{{0.5f, 2, 2}, {0, 2}, films.half};
@@ -301,7 +301,8 @@ TEST(ConvergenceFilm, IsNotMergedFromRanges) {
     other.ranges = {{4, 8}};
     expect_input_error("only another pass can be merged", [&] { merge_film(film, other); });
     other.convergence.reset();
-    expect_input_error("only another pass can be merged", [&] { merge_film(film, other); });
+    expect_input_error("films differ in stopped pixels (yes and no)",
+                       [&] { merge_film(film, other); });
 }
 
 TEST(ConvergenceFilm, IsSavedAndLoadedBitByBit) {

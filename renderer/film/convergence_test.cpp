@@ -318,7 +318,8 @@ TEST(Convergence, RefusesWhatItCannotDo) {
     EXPECT_EQ(session.render(4, 4), 4u) << "an empty range";
     FilmState film = session.film();
     film.convergence.reset();
-    expect_input_error("belongs to another scene, other settings", [&] { session.restore(film); });
+    expect_input_error("rendered with stopped pixels = no, and this render has yes",
+                       [&] { session.restore(film); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "renderer/film/film.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,7 @@ namespace rtrays {
 
 namespace {
 
-constexpr int state_version = 4;
+constexpr int state_version = 5;
 const std::string magic = "RTRaysFilm";
 
 size_t pixel_words(const FilmState &film) {
@@ -146,6 +147,30 @@ void copy_to_floats(const std::vector<double> &values, std::vector<float> &float
                    [](double value) { return static_cast<float>(value); });
 }
 
+std::string pass_names(const FilmState &film) {
+    std::vector<std::string> names;
+    for (const PassKind pass : film.passes) {
+        names.push_back(to_string(pass));
+    }
+    return fmt::to_string(fmt::join(names, " and "));
+}
+
+/// Returns what two films share if samples of one can be added to the other, with values as text.
+/// In the order of names, a setting comes before the properties that follow from it.
+std::map<std::string, std::string> identity_of(const FilmState &film, bool with_passes) {
+    const auto yes_no = [](bool value) { return value ? "yes" : "no"; };
+    std::map<std::string, std::string> identity = film.config;
+    identity["size"] = fmt::format("{} x {}", film.width, film.height);
+    identity["seed"] = fmt::to_string(film.seed);
+    identity["sums for variances"] = yes_no(film.variance);
+    identity["sums of sequences"] = yes_no(film.sequences);
+    if (with_passes) {
+        identity["passes"] = pass_names(film);
+        identity["stopped pixels"] = yes_no(film.convergence.has_value());
+    }
+    return identity;
+}
+
 /// Returns a film with the fields of a file's header, and words of 0. `fail` makes an error of that
 /// file.
 template <typename Fail>
@@ -159,7 +184,7 @@ FilmState film_of_header(const Json &header, const Fail &fail) {
     film.variance = header.at("variance");
     film.sequences = header.at("sequences");
     film.seed = header.at("seed");
-    film.config = header.at("config");
+    film.config = header.at("config").get<std::map<std::string, std::string>>();
     film.device_seconds = header.at("device_seconds");
     film.wall_seconds = header.at("wall_seconds");
     film.passes.clear();
@@ -196,6 +221,10 @@ uint64_t FilmState::samples() const {
         count += range.end - range.begin;
     }
     return count;
+}
+
+std::string FilmState::config_hash() const {
+    return content_hash(Json(config).dump());
 }
 
 void FilmState::add_range(SampleRange range) {
@@ -272,23 +301,37 @@ Image develop_film(const FilmState &film) {
     return image;
 }
 
-void merge_film(FilmState &film, const FilmState &other) {
-    const auto require = [](bool same, const char *what) {
-        if (!same) {
-            throw input_error(fmt::format("films differ in {} and cannot be merged", what));
-        }
+std::optional<FilmDifference> find_difference(const FilmState &first, const FilmState &second,
+                                              bool compare_passes) {
+    const auto one = identity_of(first, compare_passes), two = identity_of(second, compare_passes);
+    const auto value = [](const auto &identity, const std::string &name) {
+        const auto found = identity.find(name);
+        return found == identity.end() ? "none" : found->second;
     };
-    require(film.width == other.width && film.height == other.height, "size");
-    require(film.variance == other.variance, "layers");
-    require(film.sequences == other.sequences, "integrator.sampler");
-    require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
-            "passes");
-    require(film.seed == other.seed, "seed");
-    require(film.config == other.config, "scene or settings");
+    auto names = one;
+    names.insert(two.begin(), two.end());
+    for (const auto &entry : names) {
+        const std::string &name = entry.first;
+        if (value(one, name) != value(two, name)) {
+            return FilmDifference{name, value(one, name), value(two, name)};
+        }
+    }
+    return std::nullopt;
+}
+
+void merge_film(FilmState &film, const FilmState &other) {
+    const bool other_pass =
+        film.passes != other.passes && film.passes.size() == 1 && other.passes.size() == 1;
+    if (const auto difference = find_difference(film, other, !other_pass)) {
+        throw input_error(fmt::format("films differ in {} ({} and {}) and cannot be merged",
+                                      difference->name, difference->first, difference->second));
+    }
     FilmState merged = film;
-    const bool other_pass = film.passes != other.passes;
     if (other_pass) {
-        require(film.ranges == other.ranges, "samples, which different passes must share,");
+        if (film.ranges != other.ranges) {
+            throw input_error(
+                "different passes must have the same samples; render the missing ones");
+        }
     } else if (film.convergence || other.convergence) {
         throw input_error(
             "films with convergence control depend on the order of their samples; only another "

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,8 +38,9 @@ struct FilmState {
     /// Light paths per sample of the image, 0 without a light pass.
     uint64_t light_paths = 0;
     uint32_t seed = 0;
-    /// Hash of scene and settings. Films of different configurations cannot be merged.
-    std::string config;
+    /// What else decides the image, by name: the hash of the scene, and the settings with their
+    /// values.
+    std::map<std::string, std::string> config;
     /// Ranges of samples in the film: sorted, disjoint, and with adjacent ranges merged.
     std::vector<SampleRange> ranges;
     /// Device time and wall time of the stages and of the pilot, if there was one.
@@ -56,6 +58,9 @@ struct FilmState {
     /// Returns the number of samples per pixel. A pixel that convergence control has stopped has
     /// fewer from the camera pass.
     uint64_t samples() const;
+
+    /// Returns the hash of `config`.
+    std::string config_hash() const;
 
     /// Adds a range. Throws `Error` (bad input) when it overlaps a range of the film.
     void add_range(SampleRange range);
@@ -79,10 +84,20 @@ void require_valid(const FilmState &film);
 /// neighbouring pixels are correlated.
 Image develop_film(const FilmState &film);
 
+/// A property of films with its values, as text, in two of them.
+struct FilmDifference {
+    std::string name, first, second;
+};
+
+/// Returns the first difference of two films because of which samples of one cannot be added to the
+/// other: in size, sums, seed or `config`, or with `compare_passes` in the passes.
+std::optional<FilmDifference> find_difference(const FilmState &first, const FilmState &second,
+                                              bool compare_passes = true);
+
 /// Adds `other` to `film`: other samples of the same passes, or another pass of the same samples.
-/// Throws `Error` (bad input) when size, seed, configuration or layers differ, or when samples are
-/// already in the film. With convergence control, all samples from the first on decide where a
-/// pixel stops, so that only passes can be merged.
+/// Throws `Error` (bad input) that names the first difference and both values when the films are
+/// not of one render, or when samples are already in the film. With convergence control, all
+/// samples from the first on decide where a pixel stops, so that only passes can be merged.
 void merge_film(FilmState &film, const FilmState &other);
 
 /// Writes the film to a file: a checksum, a line that names the format, a line of JSON and the

@@ -30,7 +30,7 @@ FilmState empty_film() {
     FilmState film;
     film.width = film.height = 1;
     film.seed = 7;
-    film.config = "config";
+    film.config = {{"integrator.beta", "2"}};
     film.words.assign(pixel_words, 0);
     return film;
 }
@@ -210,7 +210,8 @@ TEST(Film, SequencesDoNotChangeTheMean) {
     merge_film(parts, film_of_sequences({samples.begin() + 333, samples.end()}, {{333, 1000}}));
     EXPECT_EQ(parts.words, film_of_sequences(samples, {{0, 1000}}).words);
     FilmState other = film_of(samples);
-    expect_input_error("films differ in integrator.sampler", [&] { merge_film(other, parts); });
+    expect_input_error("films differ in sums of sequences (no and yes)",
+                       [&] { merge_film(other, parts); });
 }
 
 TEST(Film, MergesExactlyInAnyOrder) {
@@ -246,10 +247,20 @@ TEST(Film, RefusesWhatDoesNotBelongTogether) {
         expect_input_error(std::string("films differ in ") + what,
                            [&] { merge_film(film, other); });
     };
-    refuse("size", [](FilmState &other) { other.width = 2; });
-    refuse("layers", [](FilmState &other) { other.variance = false; });
-    refuse("seed", [](FilmState &other) { other.seed = 8; });
-    refuse("scene or settings", [](FilmState &other) { other.config = "another"; });
+    refuse("size (1 x 1 and 2 x 1)", [](FilmState &other) { other.width = 2; });
+    refuse("sums for variances (yes and no)", [](FilmState &other) { other.variance = false; });
+    refuse("seed (7 and 8)", [](FilmState &other) { other.seed = 8; });
+    refuse("integrator.beta (2 and 1)",
+           [](FilmState &other) { other.config["integrator.beta"] = "1"; });
+    refuse("crop (none and 0 0 of 4 x 4)",
+           [](FilmState &other) { other.config["crop"] = "0 0 of 4 x 4"; });
+    refuse("integrator.beta (2 and none)", [](FilmState &other) {
+        other.config = {};
+        other.seed = 8;
+    });
+    refuse("passes (camera and camera and light)", [](FilmState &other) {
+        other.passes = {PassKind::camera, PassKind::light};
+    });
     EXPECT_EQ(film.words, before.words);
     EXPECT_EQ(film.samples(), 2u);
 }

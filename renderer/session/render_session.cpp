@@ -115,21 +115,15 @@ FilmState RenderSession::film() const {
     film.out_of_range += counters.out_of_range;
     film.device_seconds += state_->device_seconds();
     film.wall_seconds += state_->wall_seconds + state_->pilot.wall_seconds;
-    if (state_->convergence != nullptr) {
-        film.convergence = state_->convergence->state();
-    }
     return film;
 }
 
 void RenderSession::restore(const FilmState &film) {
-    const FilmState header = state_->film_header();
-    if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
-        film.height != header.height || film.variance != header.variance ||
-        film.sequences != header.sequences || film.passes != header.passes ||
-        film.convergence.has_value() != (state_->convergence != nullptr)) {
-        throw input_error(
-            "the film state belongs to another scene, other settings, another seed or size; "
-            "resume with those of the film");
+    if (const auto difference = find_difference(film, state_->film_header())) {
+        throw input_error(fmt::format(
+            "the film was rendered with {0} = {1}, and this render has {2}; resume with "
+            "the {0} of the film",
+            difference->name, difference->first, difference->second));
     }
     state_->reset_film();
     for (size_t pass = 0; pass < film.passes.size(); ++pass) {
@@ -185,7 +179,7 @@ void describe_image(Image &image, const FilmState &film) {
     attributes["rtrays:commit"] = version();
     attributes["rtrays:seed"] = std::to_string(film.seed);
     attributes["rtrays:samples"] = ranges;
-    attributes["rtrays:config"] = film.config;
+    attributes["rtrays:config"] = film.config_hash();
     if (film.sequences) {
         attributes["rtrays:varianceFreedom"] = static_cast<int>(SOBOL_SEQUENCES) - 1;
     }

@@ -115,8 +115,8 @@ class RenderSession {
     /// Returns the settings, with the choices that algorithm, scene and pilot made.
     const RenderSettings &settings() const;
 
-    /// Replaces the film by a saved one. Throws `Error` (bad input) when it belongs to another
-    /// scene, other settings, another seed or size.
+    /// Replaces the film by a saved one. Throws `Error` (bad input) that names the first
+    /// difference when it belongs to another scene, other settings, another seed or size.
     void restore(const FilmState &film);
 
     /// Returns the developed film with its metadata. Throws `Error` (run failed) when samples were

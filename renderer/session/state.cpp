@@ -199,15 +199,23 @@ void RenderSession::State::set_guides() {
 }
 
 void RenderSession::State::set_config() {
+    config = {{"scene", scene->hash()}};
+    const nlohmann::json values = image_settings(settings);
+    for (const auto &[name, value] : values.items()) {
+        config[name] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
     const RenderSettings::Window &window = settings.window;
-    const std::string crop = window.full_width == 0
-                                 ? ""
-                                 : fmt::format("crop {} {} {} {}", window.x, window.y,
-                                               window.full_width, window.full_height);
-    std::string guides =
-        has_guided_emission(settings) ? guide_hash(settings.emission_guide->words) : "";
-    guides += has_guided_scattering(settings) ? guide_hash(settings.scatter_guide->words) : "";
-    config = content_hash(scene->hash() + image_settings(settings).dump() + crop + guides);
+    if (window.full_width > 0) {
+        config["crop"] = fmt::format("{} {} of {} x {}", window.x, window.y, window.full_width,
+                                     window.full_height);
+    }
+    // After "scene" in the order of names, because the scene decides them.
+    if (has_guided_emission(settings)) {
+        config["table of guided emission"] = guide_hash(settings.emission_guide->words);
+    }
+    if (has_guided_scattering(settings)) {
+        config["table of guided scattering"] = guide_hash(settings.scatter_guide->words);
+    }
 }
 
 bool RenderSession::State::update(const Scene &graph) {
@@ -433,6 +441,9 @@ FilmState RenderSession::State::film_header() const {
     }
     header.seed = integrator.seed;
     header.config = config;
+    if (convergence != nullptr) {
+        header.convergence = convergence->state();
+    }
     return header;
 }
 

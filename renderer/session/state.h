@@ -236,8 +236,8 @@ struct RenderSession::State {
     IntegratorSettings integrator;
     FeatureMask features;  ///< union over all passes
     std::vector<CompiledPass> passes;
-    std::string config;            ///< hash of scene and settings
-    bool emitters_in_view = true;  ///< `emitters_in_view` of the camera and the scene
+    std::map<std::string, std::string> config;  ///< `FilmState::config`
+    bool emitters_in_view = true;               ///< `emitters_in_view` of the camera and the scene
 
     Buffer<uint32_t> emission_guide, scatter_guide;
     Buffer<uint32_t> path_words;
