@@ -8,13 +8,7 @@ from rtrays.documents.document import value
 from rtrays.documents.intervals import reach_of
 from rtrays.documents.sweep import base_of, gain
 from rtrays.pages.sweep_page import page_of_gains
-from rtrays.plots.style import (
-    legend_below_axes,
-    line_at_one,
-    name_rows,
-    series_style,
-    set_ticks,
-)
+from rtrays.plots.style import legend_below, line_at_one, name_rows, series_style, set_ticks
 from rtrays.tables.cells import interval
 from rtrays.tables.table import Table
 
@@ -42,7 +36,7 @@ def gains_figure(run):
     powers = [2.0**exponent for exponent in range(-20, 21)]
     set_ticks(axes.set_xticks, [power for power in powers if low <= power <= high])
     axes.minorticks_off()
-    legend_below_axes(axes, 0.5, -0.4 / (1 + 0.17 * len(rows)) - 0.05, 1)
+    legend_below(figure, 1)
     return figure
 
 

@@ -6,8 +6,15 @@ import pathlib
 import tempfile
 import unittest
 
+from matplotlib import pyplot
+
 from rtrays.documents.run_document import Run
-from rtrays.pages.scene_gains_page import gains_finding, gains_table, scene_gains_page
+from rtrays.pages.scene_gains_page import (
+    gains_figure,
+    gains_finding,
+    gains_table,
+    scene_gains_page,
+)
 from rtrays.pages.test_sweep_page import curve
 
 
@@ -55,6 +62,18 @@ class SceneGainsPage(unittest.TestCase):
                 + [f"{x} [{x}, {x}]" for x in ("4.00", "1.00", "2.00")],
             ],
         )
+
+    def test_the_legend_is_just_below_the_axes(self):
+        for scenes in (2, 80):
+            self.run_object.document["rows"] = [row(f"scene_{i}", 1.0) for i in range(scenes)]
+            figure = gains_figure(self.run_object)
+            figure.canvas.draw()
+            (legend,) = figure.legends
+            bottom = figure.axes[0].xaxis.get_tightbbox().y0
+            gap = (bottom - legend.get_window_extent().y1) / figure.dpi
+            self.assertGreaterEqual(gap, 0)
+            self.assertLess(gap, 0.2)  # inches
+            pyplot.close(figure)
 
     def test_the_page_states_the_range_and_the_losses(self):
         self.assertEqual(
