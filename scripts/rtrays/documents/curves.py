@@ -152,3 +152,16 @@ def usable_points(curve):
             break
         points.append(point)
     return points
+
+
+def left_out(curves):
+    """Returns the sentence that counts the points of curves that plots leave out; empty if plots
+    show them all."""
+    counts = [len(value(curve, "points")) - len(usable_points(curve)) for curve in curves]
+    points, ended = sum(counts), sum(map(bool, counts))
+    if not points:
+        return ""
+    return (
+        f"{points} point{'s' * (points > 1)} of {ended} curve{'s' * (ended > 1)} left out: a curve"
+        " ends where the reference's noise exceeds 10 % of its MSE."
+    )

@@ -4,7 +4,7 @@
 import numpy
 from matplotlib import pyplot
 
-from rtrays.documents.curves import clock_of, label, seconds, usable_points
+from rtrays.documents.curves import clock_of, label, left_out, seconds, usable_points
 from rtrays.documents.document import value
 from rtrays.plots.error_plots import write_error_plots
 from rtrays.plots.image_plots import write_pictures
@@ -127,14 +127,13 @@ def curves_figure(run, x_key):
 def write_curves(run, folder):
     """Writes the plots of errors; returns {file: caption}."""
     folder.mkdir(parents=True, exist_ok=True)
-    figures = {}
+    figures, note = {}, left_out(run.curves)
     for x_key, axis in AXES.items():
         if x_key == "seconds_device" and clock_of(run) == "wall":
             continue  # another renderer has none
         save(curves_figure(run, x_key), folder / f"rmse_{x_key}", ".svg", ".png")
-        figures[
-            f"rmse_{x_key}.svg"
-        ] = f"RMSE against {axis}; medians and the central 95 % of the seeds."
+        caption = f"RMSE against {axis}; medians and the central 95 % of the seeds. {note}"
+        figures[f"rmse_{x_key}.svg"] = caption.rstrip()
     return figures
 
 

@@ -4,7 +4,8 @@
 import copy
 import unittest
 
-from rtrays.plots.curve_plots import curves_figure
+from rtrays.documents.curves import left_out
+from rtrays.plots.curve_plots import curves_figure, write_curves
 from rtrays.testing import RunFolder
 
 
@@ -19,6 +20,19 @@ class CurvePlots(RunFolder):
             width, height = figure.axes[0].get_window_extent().size / figure.dpi
             self.assertGreater(width, 5)
             self.assertGreater(height, 3)
+
+    def test_captions_count_the_points_that_are_left_out(self):
+        captions = write_curves(self.run_object(), self.folder / "plots")
+        self.assertEqual(len(captions), 3)
+        for caption in captions.values():
+            self.assertTrue(caption.endswith(
+                "of the seeds. 2 points of 2 curves left out: a curve ends where the reference's"
+                " noise exceeds 10 % of its MSE."
+            ))
+        implicit, mis = self.document["curves"]
+        implicit["points"].pop()
+        self.assertRegex(left_out([implicit, mis]), "^1 point of 1 curve left out:")
+        self.assertEqual(left_out([implicit]), "")
 
     def test_all_curves_have_their_own_colour_and_marker(self):
         for number in range(20):

@@ -26,6 +26,12 @@ class PaperFigures(RunFolder):
         with self.assertRaisesRegex(RunError, "'bdpt'; curves are: path tracing .implicit.; "):
             paper_figure(run, "rmse", "spp", ["bdpt"])
 
+    def test_the_command_counts_the_points_that_are_left_out(self):
+        self.run_object()
+        done = self.results("figure", self.folder, "-o", self.folder / "plot.pdf", "--curve",
+                            "path_tracing.mis")
+        self.assertIn("results: 1 point of 1 curve left out:", done.stderr)
+
     def test_images_are_those_nearest_in_time(self):
         curve = self.document["curves"][0]
         curve["early_images"] = [
