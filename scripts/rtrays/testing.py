@@ -182,6 +182,14 @@ def add_parts(document):
                 }
 
 
+def legend_gap(figure):
+    """Returns the distance, in inches, from the labels of a figure's first axes to its legend."""
+    figure.canvas.draw()
+    (legend,) = figure.legends
+    bottom = figure.axes[0].xaxis.get_tightbbox().y0
+    return (bottom - legend.get_window_extent().y1) / figure.dpi
+
+
 class RunFolder(unittest.TestCase):
     """A temporary folder with the made-up run and its images."""
 

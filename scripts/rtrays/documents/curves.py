@@ -154,10 +154,18 @@ def usable_points(curve):
     return points
 
 
-def left_out(curves):
-    """Returns the sentence that counts the points of curves that plots leave out; empty if plots
-    show them all."""
-    counts = [len(value(curve, "points")) - len(usable_points(curve)) for curve in curves]
+def is_usable(curve, point):
+    """Whether a point of a curve, or an entry with its samples, is before the reference's noise
+    dominates."""
+    return value(point, "spp") in [value(each, "spp") for each in usable_points(curve)]
+
+
+def left_out(curves, points_of):
+    """Returns the sentence that counts the points of curves that a plot leaves out; empty without
+    any. `points_of` returns the points of a curve that the plot would show otherwise."""
+    counts = [
+        sum(not is_usable(curve, point) for point in points_of(curve)) for curve in curves
+    ]
     points, ended = sum(counts), sum(map(bool, counts))
     if not points:
         return ""

@@ -19,6 +19,12 @@ CLOCKS = ("device", "wall")
 CENTRE = (0.025, 0.975)
 
 
+def require_metric(name, metrics):
+    """Raises RunError unless a metric is one of some."""
+    if name not in metrics:
+        raise RunError(f"unknown metric '{name}'; metrics are: {', '.join(metrics)}")
+
+
 def chosen_curves(run, names):
     """Returns the curves with these ids or labels, in this order, or all without names."""
     known = {value(curve, "id"): curve for curve in run.curves}

@@ -8,7 +8,7 @@ from rtrays.documents.curves import clock_of, label, left_out, seconds, usable_p
 from rtrays.documents.document import value
 from rtrays.plots.error_plots import write_error_plots
 from rtrays.plots.image_plots import write_pictures
-from rtrays.plots.style import COLOURS, MARKERS, legend_below_axes, save
+from rtrays.plots.style import colour_and_marker, legend_below_axes, save
 
 AXES = {
     "spp": "samples per pixel",
@@ -62,19 +62,18 @@ def covers(over, under):
 def draw_curve(axes, curve, index, line, below):
     """Draws one curve; `line` is (x, y). A curve that covers earlier ones, `below`, is thinner and
     dashed, so that each can be seen, and the legend says so."""
-    colour, covered = COLOURS[index % len(COLOURS)], min(len(below), len(DASHES))
+    style, covered = colour_and_marker(index), min(len(below), len(DASHES))
     on = f"\n(on {label(below[-1])})" if below else ""
     spread = band(usable_points(curve), "rmse")
-    axes.fill_between(line[0], *spread, color=colour, alpha=0.2, linewidth=0)
+    axes.fill_between(line[0], *spread, color=style["color"], alpha=0.2, linewidth=0)
     axes.plot(
         *line,
-        color=colour,
-        marker=MARKERS[(index + index // len(COLOURS)) % len(MARKERS)],
+        **style,
         markersize=6 - 1.5 * covered,
         linewidth=2 - 0.4 * covered,
         linestyle=DASHES[covered - 1] if below else "-",
         label=f"{label(curve)}, slope {value(curve, 'slope.value'):.3f}{on}",
-        markerfacecolor="white" if below else colour,
+        markerfacecolor="white" if below else style["color"],
     )
 
 
@@ -127,7 +126,7 @@ def curves_figure(run, x_key):
 def write_curves(run, folder):
     """Writes the plots of errors; returns {file: caption}."""
     folder.mkdir(parents=True, exist_ok=True)
-    figures, note = {}, left_out(run.curves)
+    figures, note = {}, left_out(run.curves, lambda curve: value(curve, "points"))
     for x_key, axis in AXES.items():
         if x_key == "seconds_device" and clock_of(run) == "wall":
             continue  # another renderer has none

@@ -28,14 +28,18 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 METADATA = {".svg": {"Date": None}, ".png": {"Software": None}}
 
 
-def series_style(index):
-    """Returns colour, marker and line of a series in a plot of points with intervals."""
+def colour_and_marker(index):
+    """Returns colour and marker of a series as keywords; the first 64 series have different
+    pairs."""
     return {
         "color": COLOURS[index % len(COLOURS)],
-        "marker": MARKERS[index % len(MARKERS)],
-        "markersize": 4,
-        "linewidth": 1.0,
+        "marker": MARKERS[(index + index // len(COLOURS)) % len(MARKERS)],
     }
+
+
+def series_style(index):
+    """Returns colour, marker and line of a series in a plot of points with intervals."""
+    return {**colour_and_marker(index), "markersize": 4, "linewidth": 1.0}
 
 
 def legend_below(figure, ncols, panel=None):

@@ -8,10 +8,11 @@ import unittest
 import numpy
 
 from rtrays.documents.document import RunError
+from rtrays.metrics.flip import flip_map, hdr_flip_map
 from rtrays.plots.image_row import image_near, image_row
-from rtrays.plots.paper_plot import paper_figure
+from rtrays.plots.paper_plot import note_of, paper_figure
 from rtrays.tables.points import points_csv
-from rtrays.testing import RunFolder
+from rtrays.testing import RunFolder, legend_gap
 
 
 class PaperFigures(RunFolder):
@@ -63,6 +64,74 @@ class PaperFigures(RunFolder):
         with self.assertRaisesRegex(RunError, "not inside the image of 4x4"):
             image_row(run, None, [], [(3, 0, 2, 1)])
 
+    def test_the_row_shows_flip_with_its_mean(self):
+        run = self.run_object()
+        early, reference = (run.image(f"images/{name}.exr") for name in ("early", "reference"))
+        for metric, name, measure in (
+            ("flip", "FLIP", flip_map),
+            ("hdr_flip", "HDR-FLIP", hdr_flip_map),
+        ):
+            figure = image_row(run, ids=["path_tracing.mis"], metric=metric)
+            axes = [each for each in figure.axes if each.images]
+            errors, shown = measure(early, reference), axes[-1].images[0]
+            numpy.testing.assert_array_equal(shown.get_array(), errors)
+            self.assertEqual((shown.get_cmap().name, *shown.get_clim()), ("magma", 0, 1))
+            self.assertEqual(figure.axes[-1].get_ylabel(), name)
+            self.assertTrue(axes[1].get_xlabel().endswith(f"\n{name} {errors.mean():.3g}"))
+        with self.assertRaisesRegex(RunError, "unknown metric 'rmse'; metrics are: mae, flip, hdr"):
+            image_row(run, metric="rmse")
+
+    def test_flip_is_that_of_the_kept_images(self):
+        run = self.run_object()
+        figure = paper_figure(run, "flip", "wall", ["path_tracing.mis"])
+        (line,) = figure.axes[0].lines
+        early, reference = (run.image(f"images/{name}.exr") for name in ("early", "reference"))
+        numpy.testing.assert_allclose(line.get_xdata(), [0.4])  # at 2 spp
+        numpy.testing.assert_allclose(line.get_ydata(), [flip_map(early, reference).mean()])
+        self.assertEqual(figure.axes[0].get_ylabel(), "FLIP, first seed")
+        self.assertEqual(note_of(run, "flip"), "")
+
+        self.document["curves"][0]["early_images"][0]["spp"] = 8  # noise of the reference
+        run = self.run_object()
+        self.assertRegex(note_of(run, "flip"), "^1 point of 1 curve left out:")
+        with self.assertRaisesRegex(RunError, "path_tracing.implicit keeps no image above the"):
+            paper_figure(run, "flip", "spp")
+
+        self.document["curves"][0]["early_images"] = []
+        with self.assertRaisesRegex(RunError, "path_tracing.implicit has no images of single"):
+            paper_figure(self.run_object(), "flip", "spp")
+
+    def test_flip_needs_finite_images(self):
+        run, file = self.run_object(), self.folder / "images/early.npy"
+        broken = numpy.load(file)
+        broken[3, 1, 2] = numpy.nan
+        numpy.save(file, broken)
+        for draw in (paper_figure, lambda *_: image_row(run)):
+            with self.assertRaisesRegex(RunError, r"early.exr: pixel \(1, 3\) is not finite"):
+                draw(run, "flip", "spp")
+
+    def test_a_run_without_images_says_what_is_missing(self):
+        run = self.run_object()
+        (self.folder / "images/reference.npy").unlink()
+        for draw in (paper_figure, lambda *_: image_row(run)):
+            with self.assertRaisesRegex(RunError, "box: has no images, from which this figure"):
+                draw(run, "flip", "spp")
+        paper_figure(run, "rmse", "spp")
+
+    def test_many_curves_can_be_told_apart(self):
+        first = self.document["curves"][0]
+        self.document["curves"] = [{**first, "label": f"curve {i}"} for i in range(10)]
+        run = self.run_object()
+        figure = paper_figure(run, "rmse", "spp")
+        lines = figure.axes[0].lines
+        self.assertEqual(len({(line.get_color(), line.get_marker()) for line in lines}), 10)
+        self.assertTrue(0 <= legend_gap(figure) < 0.2)
+        row = image_row(run)
+        row.canvas.draw()
+        titles = [each.title.get_window_extent() for each in row.axes[:11]]
+        for left, right in zip(titles, titles[1:]):
+            self.assertLess(left.x1, right.x0)
+
     def test_another_renderer_has_no_device_time(self):
         self.document["curves"][0]["engine"] = "Cycles 9"
         run = self.run_object()
@@ -79,7 +148,8 @@ class PaperFigures(RunFolder):
         self.run_object()
         for arguments in (
             ("figure", self.folder, "-o", self.folder / "paper/plot.pdf"),
-            ("images", self.folder, "-o", self.folder / "paper/row.png", "--inset", "0,0,2x2"),
+            ("images", self.folder, "-o", self.folder / "paper/row.png", "--inset", "0,0,2x2",
+             "--metric", "flip"),
             ("table", self.folder, "errors", "-o", self.folder / "paper/t.tex", "--columns", "L2"),
             ("points", self.folder, self.folder, "-o", self.folder / "paper/points.csv"),
         ):
