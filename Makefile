@@ -61,7 +61,8 @@ test-asan: install
 #   * all feature scenes with the renderer and the reference, with a contact sheet, and with every
 #     algorithm;
 #   * every scene with only the required features compiled in and with all features. This step starts
-#     over when resumed, but takes kernels from the cache.
+#     over when resumed, but takes kernels from the cache;
+#   * the stages of all algorithms with each feature switched off.
 # The outputs are evidence and are kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/robustness/traversal.json --profile full --out results/chapter4/traversal
@@ -74,6 +75,8 @@ test-full: programs
 	scripts/results contact-sheet build/feature_scenes results/feature_scenes/contact_sheet.png
 	scripts/same_bits build/bin features > results/same_bits.txt.new
 	mv results/same_bits.txt.new results/same_bits.txt
+	cmake --build --preset $(PRESET) -j $(JOBS) --target feature_build_test
+	RTRAYS_ALL_BUILDS=1 build/bin/feature_build_test
 
 # Compares Mitsuba 3 and Blender's Cycles (scripts/install --peers) with the Embree reference;
 # resumable. The exit code of the script is 77 if they are not installed. RTRAYS_MESHES adds

@@ -377,7 +377,7 @@ class Program(unittest.TestCase):
         cache = self.path / "cache"
         cache.mkdir()
         environment = dict(os.environ, POCL_CACHE_DIR=str(cache), RTRAYS_CACHE_DIR=str(cache))
-        states = [self.path / f"state_{i}" for i in range(8)]
+        states = [self.path / f"state_{i}" for i in range(4)]
         processes = [
             subprocess.Popen(
                 [PROGRAM, str(SCENES / "analytic" / "furnace_050.json"), "-q", "--spp", "1",
