@@ -15,6 +15,7 @@
 #include "renderer/base/image.h"
 #include "renderer/base/named.h"
 #include "renderer/base/process.h"
+#include "renderer/base/progress.h"
 #include "renderer/base/shell.h"
 #include "renderer/base/suggestion.h"
 #include "renderer/testing/errors.h"
@@ -104,6 +105,21 @@ TEST_F(Images, ExrKeepsEveryBitOfChannelsAndAttributes) {
         EXPECT_EQ(read.attributes().at(name), value) << name;
     }
     EXPECT_EQ(file_count(), 1u);
+}
+
+TEST(RemainingTime, IgnoresTheFirstStepAndWhatWasComplete) {
+    RemainingTime left;
+    EXPECT_FALSE(left.until(100));
+    left.update(10, 0.0);  // resumed
+    left.update(10, 3.0);
+    EXPECT_FALSE(left.until(100));
+    left.update(12, 60.0);  // compiled kernels
+    EXPECT_FALSE(left.until(100));
+    left.update(14, 61.0);
+    left.update(20, 64.0);
+    EXPECT_DOUBLE_EQ(left.until(100).value(), 40.0);
+    left.update(100, 104.0);
+    EXPECT_DOUBLE_EQ(left.until(100).value(), 0.0);
 }
 
 TEST_F(Images, ExrKeepsTheDataWindow) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -30,6 +31,22 @@ std::string format_duration(double seconds) {
 
 }  // namespace
 
+void RemainingTime::update(uint64_t done, double seconds) {
+    if (last_ && done > last_->done && !first_) {
+        first_ = {done, seconds};
+    }
+    last_ = {done, seconds};
+}
+
+std::optional<double> RemainingTime::until(uint64_t total) const {
+    if (!first_ || last_->done == first_->done) {
+        return std::nullopt;
+    }
+    const double rate = static_cast<double>(last_->done - first_->done) /
+                        std::max(last_->seconds - first_->seconds, 1e-9);
+    return static_cast<double>(total - last_->done) / rate;
+}
+
 Progress::Progress(std::string task, uint64_t total, std::string what, bool quiet)
     : task_(std::move(task)),
       total_(total),
@@ -47,10 +64,10 @@ void Progress::update(uint64_t done) {
     const auto now = SteadyClock::now();
     if (!started_) {
         started_ = true;
-        first_done_ = done;
         start_ = last_print_ = now;
     }
     last_done_ = done;
+    left_.update(done, seconds_since(start_));
     const auto interval =
         terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
     if (quiet_ || now - last_print_ < interval) {
@@ -62,14 +79,10 @@ void Progress::update(uint64_t done) {
 }
 
 void Progress::print(uint64_t done, const char *end) const {
-    const double elapsed = seconds_since(start_);
-    const uint64_t advanced = done - first_done_;
-    const double left =
-        advanced > 0 ? elapsed / static_cast<double>(advanced) * static_cast<double>(total_ - done)
-                     : 0.0;
+    const std::optional<double> left = left_.until(total_);
     fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}", terminal_ ? "\r" : "", task_,
-               done, total_, what_, format_duration(elapsed),
-               advanced > 0 ? format_duration(left) : "?", terminal_ ? "\x1b[K" : "", end);
+               done, total_, what_, format_duration(seconds_since(start_)),
+               left ? format_duration(*left) : "?", terminal_ ? "\x1b[K" : "", end);
     std::fflush(stderr);
 }
 

@@ -5,12 +5,31 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "renderer/base/clock.h"
 
 namespace rtrays {
+
+/// Estimate of the time that is left. It ignores the first step, which often compiles kernels, and
+/// units that were complete before.
+class RemainingTime {
+  public:
+    /// Reports that `done` units are complete after `seconds`. Both grow.
+    void update(uint64_t done, double seconds);
+
+    /// Returns the seconds until `total` units are complete, or nothing before the second step.
+    std::optional<double> until(uint64_t total) const;
+
+  private:
+    struct Step {
+        uint64_t done;
+        double seconds;
+    };
+    std::optional<Step> first_, last_;
+};
 
 /// Progress and estimated time left on stderr. On a terminal, one line is updated in place;
 /// otherwise a line is printed every ten seconds. Prints nothing if `quiet`.
@@ -22,8 +41,7 @@ class Progress {
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /// Reports that `done` of `total` units are complete. Units completed before the first call do
-    /// not enter the estimate.
+    /// Reports that `done` of `total` units are complete. The first call starts the clock.
     void update(uint64_t done);
 
   private:
@@ -36,8 +54,8 @@ class Progress {
     bool terminal_;
     bool started_ = false;
     bool drawn_ = false;
-    uint64_t first_done_ = 0;
     uint64_t last_done_ = 0;
+    RemainingTime left_;
     SteadyClock::time_point start_;
     SteadyClock::time_point last_print_;
 };
