@@ -63,7 +63,8 @@ TEST(SceneErrors, Materials) {
              "eta: 0 is not within [0.01, 100] (index of refraction behind"},
             {R"({"type": "glass", "eta": -1.5})", "eta: -1.5 is not within"},
             {R"({"type": "glass", "eta": [1.5, 1.5, 1.5]})", "eta: [1.5,1.5,1.5] is not number"},
-            {R"({"type": "glass"})", "missing key 'eta' of the glass"},
+            {R"({"type": "oren_nayar", "reflectance": [1, 1, 1]})",
+             "missing key 'sigma' of the oren_nayar"},
             {R"({"type": "glass", "eta": 1.5, "roughness": 1e-5})",
              "roughness: [1e-05, 1e-05] is out of range; use 0 for both axes (ideally smooth) or "
              "values within [0.0001, 1]"},

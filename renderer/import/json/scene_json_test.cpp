@@ -43,6 +43,28 @@ Vector3d front(const MeshArrays &meshes, size_t triangle) {
         .normalized();
 }
 
+TEST(SceneJson, HasTheUsualIndexOfRefractionAndAxisOfView) {
+    const auto described = [](const std::string &material, const std::string &camera) {
+        return parse(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+            {"name": "a", "geometry": {"type": "rectangle"}, "material": {)" +
+                     material + R"(}}, {"name": "b", "camera": {)" + camera + "}}]}")
+            .describe();
+    };
+    const std::string pinhole = R"("type": "pinhole", "fov": 40)";
+    for (const std::string type : {R"("type": "glass")", R"("type": "thin_glass")",
+                                   R"("type": "refraction", "transmittance": [1, 1, 1])",
+                                   R"("type": "plastic", "reflectance": [0.5, 0.5, 0.5])",
+                                   R"("type": "coated_diffuse", "reflectance": [0.5, 0.5, 0.5])",
+                                   R"("type": "car_paint", "base": [0.5, 0.5, 0.5])"}) {
+        EXPECT_EQ(described(type, pinhole), described(type + R"(, "eta": 1.5)", pinhole)) << type;
+        EXPECT_NE(described(type, pinhole), described(type + R"(, "eta": 1.4)", pinhole)) << type;
+    }
+    const std::string glass = R"("type": "glass")",
+                      parallel = R"("type": "orthographic", "size": 2)";
+    EXPECT_EQ(described(glass, pinhole), described(glass, pinhole + R"(, "fov_axis": "x")"));
+    EXPECT_EQ(described(glass, parallel), described(glass, parallel + R"(, "size_axis": "x")"));
+}
+
 TEST(SceneJson, ReadsNodesCoresAndReferences) {
     Scene scene = parse(with_nodes(R"(
         {"name": "group", "material": "white", "transform": [{"scale": [2, 2, 2]}, {"translate": [0, 0, 1]}], "children": [

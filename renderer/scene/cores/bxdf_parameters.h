@@ -75,11 +75,11 @@ inline Parameter coat_alpha(const std::string &name) {
     return {name, "roughness of the coat; 0 is ideally smooth", 0.0, Need::defaulted, ranges::unit};
 }
 
-inline Parameter coat_eta(const std::string &name) {
+inline Parameter coat_eta(const std::string &name, Need need = Need::required) {
     return {name,
             "index of refraction of the coat relative to the outside",
             1.5,
-            Need::required,
+            need,
             {1, 3, false, true}};
 }
 

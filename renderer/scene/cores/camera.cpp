@@ -15,8 +15,8 @@ const std::vector<CoreType> &camera_types() {
          {0, 180, false, false}},
         {"fov_axis",
          "image axis of the angle of view",
-         std::string(),
-         Need::required,
+         std::string("x"),
+         Need::defaulted,
          ranges::any,
          {"x", "y", "smaller", "larger"}},
     };
@@ -34,8 +34,8 @@ const std::vector<CoreType> &camera_types() {
          ranges::positive},
         {"size_axis",
          "image axis of the extent",
-         std::string(),
-         Need::required,
+         std::string("x"),
+         Need::defaulted,
          ranges::any,
          {"x", "y", "smaller", "larger"}},
     };
