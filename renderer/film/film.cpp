@@ -216,11 +216,7 @@ FilmState film_of_header(const Json &header, const Fail &fail) {
 }  // namespace
 
 uint64_t FilmState::samples() const {
-    uint64_t count = 0;
-    for (const SampleRange &range : ranges) {
-        count += range.end - range.begin;
-    }
-    return count;
+    return count_samples(ranges);
 }
 
 std::string FilmState::config_hash() const {
@@ -228,28 +224,7 @@ std::string FilmState::config_hash() const {
 }
 
 void FilmState::add_range(SampleRange range) {
-    if (range.begin == range.end) {
-        return;
-    }
-    for (const SampleRange &present : ranges) {
-        if (range.begin < present.end && present.begin < range.end) {
-            throw input_error(fmt::format(
-                "samples {}:{} overlap {}:{}, which are in the film already; render others",
-                range.begin, range.end, present.begin, present.end));
-        }
-    }
-    ranges.push_back(range);
-    std::sort(ranges.begin(), ranges.end(),
-              [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
-    std::vector<SampleRange> merged;
-    for (const SampleRange &r : ranges) {
-        if (!merged.empty() && merged.back().end == r.begin) {
-            merged.back().end = r.end;
-        } else {
-            merged.push_back(r);
-        }
-    }
-    ranges = merged;
+    rtrays::add_range(ranges, range);
 }
 
 void require_valid(const FilmState &film) {

@@ -10,20 +10,11 @@
 #include <vector>
 
 #include "renderer/base/image.h"
+#include "renderer/base/sample_ranges.h"
 #include "renderer/compile/pass_kind.h"
 #include "renderer/film/convergence.h"
 
 namespace rtrays {
-
-/// Half-open range of sample indices.
-struct SampleRange {
-    uint64_t begin;
-    uint64_t end;
-
-    bool operator==(const SampleRange &other) const {
-        return begin == other.begin && end == other.end;
-    }
-};
 
 /// Exact sums of a render (shared/film_layout.h), and their origin. They can be saved, resumed and
 /// merged without changing a bit of the result.
@@ -41,8 +32,7 @@ struct FilmState {
     /// What else decides the image, by name: the hash of the scene, and the settings with their
     /// values.
     std::map<std::string, std::string> config;
-    /// Ranges of samples in the film: sorted, disjoint, and with adjacent ranges merged.
-    std::vector<SampleRange> ranges;
+    SampleRanges ranges;  ///< samples in the film
     /// Device time and wall time of the stages and of the pilot, if there was one.
     double device_seconds = 0;
     double wall_seconds = 0;

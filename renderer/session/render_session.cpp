@@ -168,17 +168,13 @@ RenderStats RenderSession::stats() const {
 }
 
 void describe_image(Image &image, const FilmState &film) {
-    std::string ranges;
-    for (const SampleRange &range : film.ranges) {
-        ranges += fmt::format("{}{}:{}", ranges.empty() ? "" : " ", range.begin, range.end);
-    }
     auto &attributes = image.attributes();
     attributes["samplesPerPixel"] = static_cast<int>(film.samples());
     attributes["renderTimeSeconds"] = static_cast<float>(film.wall_seconds);
     attributes["rtrays:deviceSeconds"] = film.device_seconds;
     attributes["rtrays:commit"] = version();
     attributes["rtrays:seed"] = std::to_string(film.seed);
-    attributes["rtrays:samples"] = ranges;
+    attributes["rtrays:samples"] = describe(film.ranges);
     attributes["rtrays:config"] = film.config_hash();
     if (film.sequences) {
         attributes["rtrays:varianceFreedom"] = static_cast<int>(SOBOL_SEQUENCES) - 1;
