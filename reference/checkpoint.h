@@ -15,8 +15,8 @@
 
 namespace rtrays::reference {
 
-/// Version of the sampling code. It is incremented whenever the same settings produce different
-/// bits; older states are then refused.
+/// Version of the sampling code. It is incremented whenever the same settings give other samples;
+/// older states and images are then not continued.
 constexpr int sampling_version = 1;
 
 /// Returns everything that determines the samples except the sample range: scene name and hash,
@@ -29,11 +29,11 @@ Json make_config(const std::string &scene_name, const std::string &scene_hash,
 struct Checkpoint {
     Json config;
     Film film;
-    uint64_t target;                   ///< end of the sample range requested by the run
+    SampleRange wanted;                ///< sample range requested by the run
     double seconds;                    ///< wall time spent on the film
     std::vector<std::string> commits;  ///< program commits in order of work, without duplicates
 
-    bool finished() const { return film.end >= target; }
+    bool finished() const { return missing_ranges(film.ranges, wanted).empty(); }
 };
 
 /// Writes the state atomically (temporary file, fsync, rename). The layout, with little-endian
@@ -43,8 +43,7 @@ struct Checkpoint {
 ///     u32 version
 ///     u32 length of the JSON header
 ///     JSON header
-///     moments of the pixels as doubles: sum, compensation, squared deviations, with 3 channels
-///         each; rows from the top
+///     words of the pixels (PixelSums) as i64; rows from the top
 ///     32 hexadecimal digits: XXH3 hash of everything before
 void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &path);
 
@@ -52,9 +51,16 @@ void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &
 /// another version, truncated or damaged.
 Checkpoint load_checkpoint(const std::filesystem::path &path);
 
-/// Checks that a render with `config` and the sample range [begin, end) can continue `checkpoint`.
-/// Throws `Error` (bad input) naming the first difference if it cannot.
-void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin,
-                       uint64_t end, const std::filesystem::path &path);
+/// Checks that a render of `wanted` with `config` can continue `checkpoint`. Throws `Error` (bad
+/// input) naming the first difference if it cannot.
+void require_continues(const Checkpoint &checkpoint, const Json &config, SampleRange wanted,
+                       const std::filesystem::path &path);
+
+/// Adds the samples of `other`. The film has the bits of one render of all samples. Throws `Error`
+/// (bad input) naming the first difference of the configurations, or samples that both films have.
+void merge_checkpoint(Checkpoint &checkpoint, const Checkpoint &other);
+
+/// Adds commits to a list, without duplicates.
+void add_commits(std::vector<std::string> &commits, const std::vector<std::string> &more);
 
 }  // namespace rtrays::reference

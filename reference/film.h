@@ -1,86 +1,114 @@
 // SPDX-License-Identifier: MIT
-// Film of the reference: sums and squared deviations of the samples of every pixel.
+// Film of the reference: exact sums of the samples of every pixel and of their squares.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "reference/fixed_sum.h"
 #include "reference/math.h"
 #include "renderer/base/image.h"
+#include "renderer/base/sample_ranges.h"
 
 namespace rtrays::reference {
 
-/// Sum and squared deviations of the samples of one pixel, per channel. The result depends only on
-/// the order of the samples, so a run that was interrupted and resumed has the same bits.
-class PixelMoments {
+/// Sums of the samples of one pixel and of their squares, per channel. A sample is first rounded to
+/// a multiple of 2^-88; whatever is 2^-35 or larger keeps all digits of a double. Both sums of
+/// these numbers are exact. They depend on the set of samples alone, not on their order and not on
+/// how they were split into films.
+///
+/// Bounds, for samples below 2^136 and at most 2^31 of them:
+///   * the sum is below 2^167, and the top word has the weight 2^(5 * 48 - 88);
+///   * the sum of squares is below 2^303, and the top word has the weight 2^(9 * 48 - 176).
+class PixelSums {
   public:
-    /// Adds sample number `count` (from 0).
-    ///
-    /// The sum is compensated for rounding errors (Knuth's TwoSum; Ogita, Rump & Oishi 2005,
-    /// algorithm 4.1). Its error is about 2^-53 |sum| for any count. Squared deviations are added
-    /// from the running mean (Welford 1962). The sum of squares minus the square of the sum would
-    /// cancel where the variance is small.
-    void add(const Spectrum &value, uint64_t count) {
-        const auto n = static_cast<double>(count);
-        if (count > 0) {
-            const Spectrum deviation = value - (sum_ + compensation_) / n;
-            deviations_ += deviation * deviation * (n / (n + 1.0));
+    static constexpr double limit = 0x1p136;           ///< of a sample, exclusive
+    static constexpr uint64_t max_count = 1ull << 31;  ///< samples
+    static constexpr size_t word_count = 48;
+
+    /// Adds samples during its lifetime, faster than one by one.
+    class Adder {
+      public:
+        explicit Adder(PixelSums &sums) : sums_(sums) {}
+        ~Adder() { sums_.carry(); }
+        Adder(const Adder &) = delete;
+        Adder &operator=(const Adder &) = delete;
+
+        /// As `PixelSums::add`.
+        bool add(const Spectrum &sample) {
+            constexpr int most = 31;  // by FixedSum::add_without_carry
+            if (++added_ % most == 0) {
+                sums_.carry();
+            }
+            return sums_.add_without_carry(sample);
         }
-        const Spectrum total = sum_ + value;
-        const Spectrum added = total - sum_;
-        compensation_ += (sum_ - (total - added)) + (value - added);
-        sum_ = total;
-    }
 
-    Spectrum mean(uint64_t count) const {
-        return (sum_ + compensation_) / static_cast<double>(count);
-    }
+      private:
+        PixelSums &sums_;
+        int added_ = 0;
+    };
 
-    /// Returns an unbiased estimate of the variance of `mean`; zero for fewer than two samples.
-    Spectrum variance_of_mean(uint64_t count) const {
-        const auto n = static_cast<double>(count);
-        return count < 2 ? Spectrum(Spectrum::Zero()) : Spectrum(deviations_ / (n * (n - 1.0)));
-    }
+    /// Adds a sample. Returns false, and adds nothing, unless all channels are finite and smaller
+    /// than `limit`.
+    bool add(const Spectrum &sample) { return Adder(*this).add(sample); }
 
-    /// Returns moments of `count` samples with the given mean and variance of the mean.
-    static PixelMoments of(const Spectrum &mean, const Spectrum &variance_of_mean, uint64_t count) {
-        const auto n = static_cast<double>(count);
-        PixelMoments moments;
-        moments.sum_ = mean * n;
-        moments.deviations_ = variance_of_mean * (n * (n - 1.0));
-        return moments;
-    }
+    /// Adds the samples of another film.
+    void operator+=(const PixelSums &other);
+
+    /// Propagates the carries after words were added from outside.
+    void carry();
+
+    /// Returns the mean of the `count` samples, with a relative error below 2^-50.
+    Spectrum mean(uint64_t count) const;
+
+    /// Returns an unbiased estimate of the variance of `mean`, with a relative error below 2^-49;
+    /// zero for fewer than two samples.
+    Spectrum variance_of_mean(uint64_t count) const;
+
+    /// Returns sums of `count` samples with the given mean and variance of the mean, two images of
+    /// floats. Throws `Error` (bad input) if they are not finite.
+    static PixelSums of(const Spectrum &mean, const Spectrum &variance_of_mean, uint64_t count);
 
   private:
-    Spectrum sum_ = Spectrum::Zero();
-    Spectrum compensation_ = Spectrum::Zero();
-    Spectrum deviations_ = Spectrum::Zero();
+    bool add_without_carry(const Spectrum &sample);
+
+    struct Channel {
+        FixedSum<6> sum;       ///< in units of 2^-88
+        FixedSum<10> squares;  ///< in units of 2^-176
+    };
+    std::array<Channel, 3> channels_;
 };
 
-/// Accumulated samples of an image. Every pixel holds the samples [begin, end).
+/// Accumulated samples of an image.
 struct Film {
-    Film(int film_width, int film_height, uint64_t first_sample)
+    Film(int film_width, int film_height)
         : width(film_width),
           height(film_height),
-          begin(first_sample),
-          end(first_sample),
           pixels(static_cast<size_t>(film_width) * static_cast<size_t>(film_height)) {}
 
-    uint64_t count() const { return end - begin; }
+    uint64_t count() const { return count_samples(ranges); }
+
+    /// Notes that all pixels hold the samples of a range. Throws `Error` (bad input) if the film
+    /// has some of them already, or would have more than `PixelSums::max_count`.
+    void add(SampleRange range);
+
+    /// Adds other samples of the same image. Throws `Error` (bad input) if sizes differ or samples
+    /// are in both films; this film then stays.
+    void merge(const Film &other);
 
     /// Returns an image with the channels R, G, B, variance.R, variance.G, variance.B (variances of
-    /// the mean) and samples.
-    Image develop() const;
+    /// the mean) and samples, and the attributes samplesPerPixel and renderTimeSeconds.
+    Image develop(double seconds = 0) const;
 
     /// Reconstructs a film from its developed image. Means and variances have the precision of
-    /// float32 (relative error 6e-8).
-    static Film of(const Image &developed, uint64_t first_sample, uint64_t end_sample);
+    /// float32 (relative error 6e-8). Throws `Error` (bad input) if the image is not finite.
+    static Film of(const Image &developed, SampleRange range);
 
     int width;
     int height;
-    uint64_t begin;
-    uint64_t end;
-    std::vector<PixelMoments> pixels;  ///< rows from the top
+    SampleRanges ranges;
+    std::vector<PixelSums> pixels;  ///< rows from the top
 };
 
 }  // namespace rtrays::reference

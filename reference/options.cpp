@@ -75,14 +75,49 @@ void apply_range(const std::string &text, Options &options) {
     options.end = range->second;
 }
 
+/// Parses the arguments. Returns false after --help or --version, which print to stdout. Throws
+/// `Error` (bad input) on a usage error.
+bool parse(CLI::App &app, int argc, char **argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &help) {
+        app.exit(help, std::cout, std::cerr);
+        return false;
+    } catch (const CLI::ParseError &error) {
+        throw input_error(fmt::format("{} (see --help)", error.what()));
+    }
+    return true;
+}
+
+constexpr const char *manifest_help =
+    "add the image to this manifest; the image must be named SCENE.ENGINE.HALF.exr and be in "
+    "the folder of the manifest";
+
 }  // namespace
+
+std::optional<MergeOptions> parse_merge_options(int argc, char **argv) {
+    MergeOptions options;
+    CLI::App app{
+        "Adds states of one scene and one seed with disjoint sample ranges. The image has the same "
+        "bits as that of one render.",
+        "rtrays-reference merge"};
+    app.add_option("STATE", options.states, "state files")->required();
+    app.add_option("-o,--output", options.output, "output image (OpenEXR)")->required();
+    app.add_option("--state", options.state, "merged state file to write");
+    app.add_flag("--overwrite", options.overwrite, "replace the file of --state if it exists");
+    app.add_option("--manifest", options.manifest, manifest_help);
+    return parse(app, argc, argv) ? std::optional(options) : std::nullopt;
+}
 
 std::optional<Options> parse_options(int argc, char **argv) {
     Options options;
     std::string size, crop, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
         "Renders a scene with the independent Embree path tracer, Mitsuba 3 or Blender's Cycles.\n"
-        "A state file beside the output stores the progress; --resume continues from it."};
+        "A state file beside the output stores the progress; --resume continues from it.\n\n"
+        "Other uses:\n"
+        "  rtrays-reference merge STATE... -o OUT.exr    adds states of one scene",
+        "rtrays-reference"};
     app.set_version_flag("--version", program_version("rtrays-reference"));
     app.add_option("SCENE", options.scene, "scene file")->required();
     app.add_option("-o,--output", options.output, "output image (OpenEXR)")->required();
@@ -122,22 +157,14 @@ std::optional<Options> parse_options(int argc, char **argv) {
         ->check(number_between(0.0, 600.0))
         ->capture_default_str();
     app.add_option("--stats", options.stats, "JSON file to write counts and times to");
-    auto *manifest = app.add_option(
-        "--manifest", options.manifest,
-        "add the image to this manifest; the image must be named SCENE.ENGINE.HALF.exr and be in "
-        "the folder of the manifest");
+    auto *manifest = app.add_option("--manifest", options.manifest, manifest_help);
     app.add_flag("--skip-if-listed", options.skip_if_listed,
                  "do nothing if the manifest lists the image with these settings and at least as "
                  "many samples")
         ->needs(manifest);
     app.add_flag("-q,--quiet", options.quiet, "do not print progress");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success &help) {
-        app.exit(help, std::cout, std::cerr);
+    if (!parse(app, argc, argv)) {
         return std::nullopt;
-    } catch (const CLI::ParseError &error) {
-        throw input_error(fmt::format("{} (see --help)", error.what()));
     }
     if (spp->count() + samples->count() == 0) {
         throw input_error("--spp or --samples is required (see --help)");

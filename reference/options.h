@@ -34,6 +34,18 @@ struct Options {
     bool quiet = false;
 };
 
+/// Parsed command line of `rtrays-reference merge`.
+struct MergeOptions {
+    std::vector<std::string> states;  ///< files to add
+    std::string output;
+    std::string state;     ///< merged state file to write; empty: not written
+    std::string manifest;  ///< empty: not updated
+    bool overwrite = false;
+};
+
+/// Parses the arguments that follow "merge". Returns and throws as `parse_options`.
+std::optional<MergeOptions> parse_merge_options(int argc, char **argv);
+
 /// Parses the command line. Returns nothing after --help or --version, which print to stdout.
 /// Throws `Error` (bad input) on a usage error.
 std::optional<Options> parse_options(int argc, char **argv);

@@ -81,9 +81,9 @@ struct PeerRenderer::State {
     std::string engine;
     Film film;
     double seconds = 0;
-    std::optional<Process> process;  ///< renders the steps from `film.end` onwards
+    std::optional<Process> process;  ///< renders the steps that follow
 
-    void start(uint64_t end) {
+    void start(uint64_t begin, uint64_t end) {
         std::vector<std::string> command = kind.render;
         const std::vector<std::string> arguments = {
             (folder / kind.scene_file).string(),
@@ -91,11 +91,11 @@ struct PeerRenderer::State {
             "--spp",
             std::to_string(kind.samples_per_step),
             "--seed",
-            std::to_string(first_seed(settings.seed) + film.end),
+            std::to_string(first_seed(settings.seed) + begin),
             "--max-depth",
             std::to_string(settings.max_depth),
             "--runs",
-            std::to_string(end - film.end)};
+            std::to_string(end - begin)};
         command.insert(command.end(), arguments.begin(), arguments.end());
         process.emplace(command, python_environment());
     }
@@ -111,7 +111,8 @@ struct PeerRenderer::State {
                                     engine, process->wait()));
     }
 
-    void add(const Image &image) {
+    /// Adds the image of a step.
+    void add(const Image &image, uint64_t step) {
         if (image.width() != film.width || image.height() != film.height) {
             throw run_error(fmt::format("{}: unexpected image size {}x{}", engine, image.width(),
                                         image.height()));
@@ -121,14 +122,13 @@ struct PeerRenderer::State {
             const Spectrum value(static_cast<double>(image.channel(names[0])[i]),
                                  static_cast<double>(image.channel(names[1])[i]),
                                  static_cast<double>(image.channel(names[2])[i]));
-            if (!value.allFinite()) {
-                throw run_error(fmt::format("{}: pixel {},{} is not finite", engine,
+            if (!film.pixels[i].add(value)) {
+                throw run_error(fmt::format("{}: pixel {},{} is not finite or out of range", engine,
                                             i % static_cast<size_t>(film.width),
                                             i / static_cast<size_t>(film.width)));
             }
-            film.pixels[i].add(value, film.count());
         }
-        ++film.end;
+        film.add({step, step + 1});
     }
 };
 
@@ -138,7 +138,7 @@ PeerRenderer::PeerRenderer(const Scene &scene, const ReferenceSettings &settings
                        settings,
                        std::move(folder),
                        {},
-                       Film(settings.width, settings.height, 0),
+                       Film(settings.width, settings.height),
                        0,
                        {}}) {
     state_->engine = version_of(state_->kind);
@@ -170,20 +170,17 @@ uint64_t PeerRenderer::batch_size() const {
 
 uint64_t PeerRenderer::render(uint64_t begin, uint64_t end) {
     State &s = *state_;
-    if (s.film.count() == 0) {
-        s.film.begin = s.film.end = begin;
-    }
     if (!s.process) {
-        s.start(std::max(end, last_step_));
+        s.start(begin, std::max(end, last_step_));
     }
-    while (s.film.end < end && !interrupted()) {
+    for (; begin < end && !interrupted(); ++begin) {
         const Json record = s.next_record();
         const fs::path file = record.at("file").get<std::string>();
-        s.add(read_exr(file));
+        s.add(read_exr(file), begin);
         fs::remove(file);
         s.seconds += record.at("seconds").get<double>();
     }
-    return s.film.end;
+    return begin;
 }
 
 double PeerRenderer::seconds() const {
@@ -204,11 +201,10 @@ void PeerRenderer::restore(Film film, double seconds) {
 }
 
 Image PeerRenderer::develop() const {
-    Image image = state_->film.develop();
+    Image image = state_->film.develop(seconds());
     const uint64_t spp = samples() * samples_per_step();
     image.channel("samples").assign(image.pixel_count(), static_cast<float>(spp));
     image.attributes()["samplesPerPixel"] = static_cast<int>(spp);
-    image.attributes()["renderTimeSeconds"] = static_cast<float>(seconds());
     return image;
 }
 

@@ -34,7 +34,7 @@ namespace {
 
 constexpr uint64_t tile_size = 16;
 /// A batch takes a fraction of a second, so that an interrupt takes effect soon.
-constexpr uint64_t paths_per_batch = 1 << 18;
+constexpr uint64_t paths_per_batch = 1 << 19;
 
 /// Checks that the material of every surface exists, and its light if it has one.
 void check_indices(const SceneArrays &scene) {
@@ -57,19 +57,23 @@ void check_indices(const SceneArrays &scene) {
     }
 }
 
-/// Records the first path, in the order of pixels and samples, whose radiance is not finite.
-class FirstFault {
+/// Counts the paths whose radiance the film refuses, and records the first in the order of pixels
+/// and samples.
+class Faults {
   public:
     void note(uint64_t pixel, uint64_t sample) {
         const std::lock_guard<std::mutex> lock(mutex_);
         const auto fault = std::make_pair(pixel, sample);
         first_ = first_ ? std::min(*first_, fault) : fault;
+        ++count_;
     }
     const std::optional<std::pair<uint64_t, uint64_t>> &first() const { return first_; }
+    uint64_t count() const { return count_; }
 
   private:
     std::mutex mutex_;
     std::optional<std::pair<uint64_t, uint64_t>> first_;
+    uint64_t count_ = 0;
 };
 
 }  // namespace
@@ -86,7 +90,7 @@ struct ReferenceRenderer::State {
           lights(geometry, scene.lights, emission_textures(scene.materials, scene.textures)),
           integrator(world(), wanted.strategies, wanted.max_depth, wanted.joinable_only,
                      wanted.roulette),
-          film(wanted.width, wanted.height, 0),
+          film(wanted.width, wanted.height),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}
 
@@ -105,7 +109,7 @@ struct ReferenceRenderer::State {
     LightSet lights;
     PathIntegrator<Bsdf, LightSet> integrator;
     Film film;
-    FirstFault fault;
+    Faults faults;
     tbb::enumerable_thread_specific<RayCounts> counts;
     double seconds = 0.0;
     int threads;
@@ -121,19 +125,17 @@ void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> 
             // A pixel has the random numbers that it has in the full picture.
             const uint64_t column = x + static_cast<uint64_t>(settings.crop_x);
             const uint64_t row = y + static_cast<uint64_t>(settings.crop_y);
-            PixelMoments moments = film.pixels[pixel];
+            PixelSums::Adder sums(film.pixels[pixel]);
             for (uint64_t sample = begin; sample < end; ++sample) {
                 Rng rng(settings.seed, row * static_cast<uint64_t>(full_width) + column, sample);
                 const double film_x = static_cast<double>(column) + rng.uniform();
                 const double film_y = static_cast<double>(row) + rng.uniform();
                 const Spectrum radiance =
                     integrator.radiance(camera.ray(film_x, film_y, rng), rng, tile_counts);
-                if (!radiance.allFinite()) {
-                    fault.note(pixel, sample);
+                if (!sums.add(radiance)) {
+                    faults.note(pixel, sample);
                 }
-                moments.add(radiance, sample - film.begin);
             }
-            film.pixels[pixel] = moments;
         }
     }
     counts.local() += tile_counts;
@@ -152,13 +154,15 @@ void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
             pixels, [&](const auto &tile) { render_tile(tile, begin, end); },
             tbb::simple_partitioner());
     });
-    film.end = end;
+    film.add({begin, end});
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (fault.first()) {
-        const auto [pixel, sample] = *fault.first();
+    if (faults.first()) {
+        const auto [pixel, sample] = *faults.first();
         const auto width = static_cast<uint64_t>(settings.width);
-        throw run_error(fmt::format("pixel {},{} sample {} (seed {}): the radiance is not finite",
-                                    pixel % width, pixel / width, sample, settings.seed));
+        throw run_error(fmt::format(
+            "pixel {},{} sample {} (seed {}): the radiance is not finite or beyond the film's "
+            "range of 2^136; {} such samples",
+            pixel % width, pixel / width, sample, settings.seed, faults.count()));
     }
 }
 
@@ -174,18 +178,14 @@ ReferenceRenderer::ReferenceRenderer(const SceneArrays &scene, const ReferenceSe
 ReferenceRenderer::~ReferenceRenderer() = default;
 
 uint64_t ReferenceRenderer::render(uint64_t begin, uint64_t end) {
-    Film &film = state_->film;
-    if (film.count() == 0) {
-        film.begin = film.end = begin;
+    SampleRanges all = state_->film.ranges;
+    add_range(all, {begin, end});  // an overlap is an error before it costs time
+    while (begin < end && !interrupted()) {
+        const uint64_t batch_end = std::min(end, begin + batch_size());
+        state_->render_batch(begin, batch_end);
+        begin = batch_end;
     }
-    if (begin != film.end || end < begin) {
-        throw run_error(fmt::format("samples {}:{} do not continue a film that holds {}:{}", begin,
-                                    end, film.begin, film.end));
-    }
-    while (film.end < end && !interrupted()) {
-        state_->render_batch(film.end, std::min(end, film.end + batch_size()));
-    }
-    return film.end;
+    return begin;
 }
 
 uint64_t ReferenceRenderer::batch_size() const {
@@ -193,10 +193,7 @@ uint64_t ReferenceRenderer::batch_size() const {
 }
 
 Image ReferenceRenderer::develop() const {
-    Image image = state_->film.develop();
-    image.attributes()["samplesPerPixel"] = static_cast<int>(samples());
-    image.attributes()["renderTimeSeconds"] = static_cast<float>(seconds());
-    return image;
+    return state_->film.develop(seconds());
 }
 
 std::vector<FirstHit> ReferenceRenderer::first_hits() const {

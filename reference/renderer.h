@@ -33,8 +33,8 @@ struct ReferenceStats {
 /// The independent path tracer. Embree computes visibility; everything else is implemented here in
 /// double precision. It shares no BSDF, light, camera or random-number code with the renderer.
 ///
-/// The bits of the film depend only on the scene, the settings (except `threads`) and the sample
-/// range.
+/// The bits of the film depend only on the scene, the settings (except `threads`) and the set of
+/// samples, in whatever order and however split.
 class ReferenceRenderer {
   public:
     /// Copies the required scene data. Throws `Error` (bad input) for a scene or settings that it
@@ -42,10 +42,11 @@ class ReferenceRenderer {
     ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings);
     ~ReferenceRenderer();
 
-    /// Adds the samples [begin, end) of every pixel to the film. `begin` must be the end of the
-    /// samples that the film holds, or any value if the film is empty. Stops at the next batch once
-    /// `interrupted()`. Returns the end of the rendered samples. Throws `Error` (run failed) naming
-    /// pixel and sample if the radiance of a path is not finite; the film is then invalid.
+    /// Adds the samples [begin, end) of every pixel to the film. Stops at the next batch once
+    /// `interrupted()`. Returns the end of the rendered samples. Throws `Error` (bad input) if the
+    /// film has some of the samples already. Throws `Error` (run failed) naming pixel, sample and
+    /// number of such samples if the radiance of a path is not finite or not below
+    /// `PixelSums::limit`; the film is then invalid.
     uint64_t render(uint64_t begin, uint64_t end);
 
     /// Returns a number of samples per pixel that takes a fraction of a second to render, a good

@@ -45,7 +45,7 @@ Checkpoint rendered_checkpoint() {
     renderer.render(0, 5);
     return {make_config("box", "abc123", settings, "embree 3.13.5"),
             renderer.film(),
-            20,
+            {0, 20},
             1.25,
             {"c0ffee", "beef"}};
 }
@@ -55,15 +55,14 @@ TEST_F(CheckpointFile, comes_back_bit_by_bit) {
     save_checkpoint(saved, path_);
     const Checkpoint loaded = load_checkpoint(path_);
     EXPECT_EQ(loaded.config, saved.config);
-    EXPECT_EQ(loaded.film.begin, 0u);
-    EXPECT_EQ(loaded.film.end, 5u);
-    EXPECT_EQ(loaded.target, 20u);
+    EXPECT_EQ(loaded.film.ranges, (SampleRanges{{0, 5}}));
+    EXPECT_EQ(loaded.wanted, (SampleRange{0, 20}));
     EXPECT_FALSE(loaded.finished());
     EXPECT_EQ(loaded.seconds, 1.25);
     EXPECT_EQ(loaded.commits, saved.commits);
     ASSERT_EQ(loaded.film.pixels.size(), saved.film.pixels.size());
     EXPECT_EQ(
-        std::memcmp(loaded.film.pixels.data(), saved.film.pixels.data(), 64 * sizeof(PixelMoments)),
+        std::memcmp(loaded.film.pixels.data(), saved.film.pixels.data(), 64 * sizeof(PixelSums)),
         0);
 }
 
@@ -88,7 +87,7 @@ TEST_F(CheckpointFile, names_what_differs) {
     ReferenceSettings settings = small_settings(8, 1);
     const auto message = [&](const std::string &scene_hash) {
         const Json config = make_config("box", scene_hash, settings, "embree 3.13.5");
-        return error_of([&] { require_continues(checkpoint, config, 0, 20, path_); });
+        return error_of([&] { require_continues(checkpoint, config, {0, 20}, path_); });
     };
     EXPECT_EQ(message("abc123"), "no error");
     EXPECT_NE(message("def456").find("scene_hash = \"abc123\", this run requests \"def456\""),
@@ -110,13 +109,47 @@ TEST_F(CheckpointFile, names_what_differs) {
 TEST_F(CheckpointFile, may_be_extended_but_not_cut) {
     const Checkpoint checkpoint = rendered_checkpoint();
     const auto message = [&](uint64_t begin, uint64_t end) {
-        return error_of(
-            [&] { require_continues(checkpoint, checkpoint.config, begin, end, path_); });
+        return error_of([&] {
+            require_continues(checkpoint, checkpoint.config, {begin, end}, path_);
+        });
     };
     EXPECT_EQ(message(0, 1000), "no error");
     EXPECT_EQ(message(0, 5), "no error");
     EXPECT_NE(message(0, 4).find("holds the samples 0:5"), std::string::npos);
     EXPECT_NE(message(1, 9).find("holds the samples 0:5"), std::string::npos);
+}
+
+TEST(MergedCheckpoint, has_the_bits_of_one_render) {
+    const ReferenceSettings settings = small_settings(8, 1);
+    const TestScene scene = cornell_like_box();
+    const Json config = make_config("box", "abc123", settings, "embree 3.13.5");
+    const auto part = [&](uint64_t begin, uint64_t end, const std::string &commit) {
+        auto renderer = scene.renderer(settings);
+        renderer.render(begin, end);
+        return Checkpoint{config, renderer.film(), {begin, end}, 0.5, {commit}};
+    };
+    Checkpoint merged = part(7, 12, "b");
+    merge_checkpoint(merged, part(0, 3, "a"));
+    EXPECT_FALSE(merged.finished());
+    merge_checkpoint(merged, part(3, 7, "b"));
+    const Checkpoint whole = part(0, 12, "a");
+    EXPECT_TRUE(merged.finished());
+    EXPECT_EQ(merged.film.ranges, whole.film.ranges);
+    EXPECT_EQ(
+        std::memcmp(merged.film.pixels.data(), whole.film.pixels.data(), 64 * sizeof(PixelSums)),
+        0);
+    EXPECT_EQ(merged.seconds, 1.5);
+    EXPECT_EQ(merged.commits, (std::vector<std::string>{"b", "a"}));
+    EXPECT_THROW(merge_checkpoint(merged, part(11, 13, "a")), Error);
+    Checkpoint other = part(12, 13, "a");
+    other.config["seed"] = 2;
+    try {
+        merge_checkpoint(merged, other);
+        FAIL() << "another seed was merged";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.what(), std::string("films differ in seed (1 and 2) and cannot be merged"));
+    }
+    EXPECT_EQ(merged.film.ranges, whole.film.ranges);
 }
 
 }  // namespace

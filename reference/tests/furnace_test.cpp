@@ -119,17 +119,17 @@ double planted_z(Strategies strategies) {
     const std::vector<BsdfModel> bsdfs{BsdfModel(Spectrum::Constant(albedo))};
     const PathIntegrator<BsdfModel, Lights> integrator({geometry, bsdfs, lights}, strategies, 0);
     const Camera camera(scene.cameras, 0, size, size);
-    Film film(size, size, 0);
+    Film film(size, size);
     RayCounts counts;
     for (uint64_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         for (uint64_t sample = 0; sample < spp; ++sample) {
             Rng rng(23, pixel, sample);
             const double x = static_cast<double>(pixel % size) + rng.uniform();
             const double y = static_cast<double>(pixel / size) + rng.uniform();
-            film.pixels[pixel].add(integrator.radiance(camera.ray(x, y), rng, counts), sample);
+            film.pixels[pixel].add(integrator.radiance(camera.ray(x, y), rng, counts));
         }
     }
-    film.end = spp;
+    film.add({0, spp});
     return furnace_z(film.develop(), albedo);
 }
 

@@ -104,7 +104,7 @@ class Program : public testing::Test {
     uint64_t wait_for_progress(const std::string &state, uint64_t before) const {
         for (int i = 0; i < 20000; ++i) {
             if (fs::exists(state)) {
-                const uint64_t done = load_checkpoint(state).film.end;
+                const uint64_t done = load_checkpoint(state).film.count();
                 if (done > before) {
                     return done;
                 }
@@ -146,7 +146,7 @@ TEST_F(Program, killed_and_resumed_equals_uninterrupted) {
         process.send(SIGKILL);
         ASSERT_EQ(process.wait(), -SIGKILL);
         EXPECT_FALSE(fs::exists(in_folder("killed.exr")));
-        done = load_checkpoint(state).film.end;
+        done = load_checkpoint(state).film.count();
         ASSERT_LT(done, 1024u);
     }
     arguments.insert(arguments.end(), {"--threads", "1"});  // the rest uses one thread
@@ -164,7 +164,7 @@ TEST_F(Program, terminated_leaves_a_state_that_continues) {
         Process process(arguments, log());
         wait_for_progress(
             in_folder("cut.exr.state"),
-            signal == SIGINT ? load_checkpoint(in_folder("cut.exr.state")).film.end : 0);
+            signal == SIGINT ? load_checkpoint(in_folder("cut.exr.state")).film.count() : 0);
         process.send(signal);
         EXPECT_EQ(process.wait(), static_cast<int>(ExitCode::interrupted));
         EXPECT_NE(read_file(log()).find("--resume"), std::string::npos);
@@ -209,6 +209,67 @@ TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
     for (size_t i = 0; i < all.size(); ++i) {
         EXPECT_NEAR(0.5f * (low[i] + high[i]), all[i], 1e-6f * all[i]);
     }
+}
+
+TEST_F(Program, merges_ranges_to_the_bits_of_one_run) {
+    const auto render = [&](const std::string &name, const std::string &range) {
+        return run({cornell_box, "-o", in_folder(name + ".exr"), "--samples", range, "--size",
+                    "12x8", "--state", in_folder(name), "--quiet"});
+    };
+    for (const auto &[name, range] :
+         {std::pair("whole", "0:40"), {"one", "0:7"}, {"two", "25:40"}, {"three", "7:25"}}) {
+        ASSERT_EQ(render(name, range), 0) << read_file(log());
+    }
+    const std::string merged = in_folder("cornell_box.embree.a.exr"), state = in_folder("merged"),
+                      manifest = in_folder("manifest.json");
+    const auto parts = [&](std::vector<std::string> names, const std::vector<std::string> &more) {
+        for (std::string &name : names) {
+            name = in_folder(name);
+        }
+        names.insert(names.begin(), "merge");
+        names.insert(names.end(), {"-o", merged});
+        names.insert(names.end(), more.begin(), more.end());
+        return names;
+    };
+    expect_refused(parts({"two", "one"}, {"--manifest", manifest}),
+                   "the samples 0:7 25:40 are not one range");
+    EXPECT_FALSE(fs::exists(merged));
+    ASSERT_EQ(run(parts({"three", "one", "two"}, {"--state", state, "--manifest", manifest})), 0)
+        << read_file(log());
+    expect_same_image(in_folder("whole.exr"), merged);
+    EXPECT_EQ(load_manifest(manifest).at("references").begin()->at("spp"), 40);
+    ASSERT_EQ(run({cornell_box, "-o", in_folder("more.exr"), "--spp", "44", "--size", "12x8",
+                   "--state", state, "--resume", "--quiet"}),
+              0);
+    ASSERT_EQ(render("whole44", "0:44"), 0);
+    expect_same_image(in_folder("whole44.exr"), in_folder("more.exr"));
+
+    expect_refused(parts({"one", "two", "one"}, {}), "samples 0:7 overlap 0:7");
+    expect_refused(parts({"one"}, {"--state", state}), "--overwrite replaces it");
+    ASSERT_EQ(run({cornell_box, "-o", in_folder("seed.exr"), "--samples", "40:41", "--size", "12x8",
+                   "--state", in_folder("seed"), "--seed", "9", "--quiet"}),
+              0);
+    expect_refused(parts({"one", "seed"}, {}), "films differ in seed (1 and 9)");
+}
+
+/// A state with gaps is filled, as after a merge of some ranges.
+TEST_F(Program, resumes_a_state_with_gaps) {
+    const auto render = [&](const std::string &name, const std::vector<std::string> &more) {
+        std::vector<std::string> arguments{cornell_box,     "-o",     in_folder(name + ".exr"),
+                                           "--size",        "12x8",   "--state",
+                                           in_folder(name), "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    ASSERT_EQ(render("whole", {"--spp", "20"}), 0);
+    ASSERT_EQ(render("low", {"--samples", "2:5"}), 0);
+    ASSERT_EQ(render("high", {"--samples", "11:14"}), 0);
+    ASSERT_EQ(run({"merge", in_folder("low"), in_folder("high"), "-o", in_folder("x.exr"),
+                   "--state", in_folder("gaps")}),
+              0);
+    EXPECT_EQ(render("gaps", {"--spp", "20"}), 2);  // unfinished
+    ASSERT_EQ(render("gaps", {"--spp", "20", "--resume"}), 0) << read_file(log());
+    expect_same_image(in_folder("whole.exr"), in_folder("gaps.exr"));
 }
 
 TEST_F(Program, renders_windows_of_the_picture) {

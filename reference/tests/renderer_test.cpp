@@ -68,11 +68,19 @@ TEST(ReferenceRenderer, seeds_and_ranges_give_other_samples) {
     EXPECT_EQ(red(1, 0, 4), first);
 }
 
-TEST(ReferenceRenderer, refuses_a_range_that_does_not_continue) {
+TEST(ReferenceRenderer, refuses_samples_that_it_has) {
     auto renderer = cornell_like_box().renderer(small_settings(16, 1));
     renderer.render(0, 4);
     EXPECT_THROW(renderer.render(3, 8), Error);
-    EXPECT_THROW(renderer.render(5, 8), Error);
+    EXPECT_EQ(renderer.samples(), 4u);
+}
+
+TEST(ReferenceRenderer, bits_do_not_depend_on_the_order_of_ranges) {
+    auto renderer = cornell_like_box().renderer(small_settings(48, 81));
+    for (const SampleRange range : {SampleRange{30, 32}, {0, 7}, {8, 30}, {7, 8}}) {
+        renderer.render(range.begin, range.end);
+    }
+    expect_same_bits(renderer.develop(), render(2, {32}));
 }
 
 TEST(ReferenceRenderer, counts_samples_and_rays) {

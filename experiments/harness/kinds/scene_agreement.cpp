@@ -220,7 +220,7 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
     ReferenceRenderer reference(scene.arrays(), settings);
     std::vector<Image> images;
     for (uint64_t batch = 0; batch < batches; ++batch) {
-        reference.restore(reference::Film(description.size, description.size, 0), 0);
+        reference.restore(reference::Film(description.size, description.size), 0);
         render_whole(reference, batch * description.reference_spp / batches,
                      (batch + 1) * description.reference_spp / batches);
         images.push_back(reference.develop());
