@@ -141,8 +141,7 @@ void RenderSession::restore(const FilmState &film) {
     state_->ranges.convergence.reset();
 }
 
-Image RenderSession::develop() const {
-    const FilmState state = film();
+Image RenderSession::develop(const FilmState &state) const {
     require_valid(state);
     Image image = develop_film(state);
     describe_image(image, state);

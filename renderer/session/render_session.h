@@ -121,7 +121,9 @@ class RenderSession {
 
     /// Returns the developed film with its metadata. Throws `Error` (run failed) when samples were
     /// not finite or out of the film's range.
-    Image develop() const;
+    Image develop() const { return develop(film()); }
+    /// Develops a film of this scene and these settings, for instance of several sessions.
+    Image develop(const FilmState &film) const;
 
     /// Returns the times and counts so far.
     RenderStats stats() const;
