@@ -109,8 +109,7 @@ std::optional<MergeOptions> parse_merge_options(int argc, char **argv) {
     return parse(app, argc, argv) ? std::optional(options) : std::nullopt;
 }
 
-std::optional<Options> parse_options(int argc, char **argv) {
-    Options options;
+std::optional<Options> parse_options(int argc, char **argv, Options options) {
     std::string size, crop, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
         "Renders a scene with the independent Embree path tracer, Mitsuba 3 or Blender's Cycles.\n"

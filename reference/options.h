@@ -46,8 +46,8 @@ struct MergeOptions {
 /// Parses the arguments that follow "merge". Returns and throws as `parse_options`.
 std::optional<MergeOptions> parse_merge_options(int argc, char **argv);
 
-/// Parses the command line. Returns nothing after --help or --version, which print to stdout.
-/// Throws `Error` (bad input) on a usage error.
-std::optional<Options> parse_options(int argc, char **argv);
+/// Parses the command line; `options` are the defaults. Returns nothing after --help or --version,
+/// which print to stdout. Throws `Error` (bad input) on a usage error.
+std::optional<Options> parse_options(int argc, char **argv, Options options = {});
 
 }  // namespace rtrays::reference

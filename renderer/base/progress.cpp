@@ -60,7 +60,8 @@ Progress::~Progress() {
     }
 }
 
-void Progress::update(uint64_t done) {
+void Progress::update(uint64_t done, const std::string &note) {
+    note_ = note;
     const auto now = SteadyClock::now();
     if (!started_) {
         started_ = true;
@@ -80,9 +81,9 @@ void Progress::update(uint64_t done) {
 
 void Progress::print(uint64_t done, const char *end) const {
     const std::optional<double> left = left_.until(total_);
-    fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}", terminal_ ? "\r" : "", task_,
+    fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}{}", terminal_ ? "\r" : "", task_,
                done, total_, what_, format_duration(seconds_since(start_)),
-               left ? format_duration(*left) : "?", terminal_ ? "\x1b[K" : "", end);
+               left ? format_duration(*left) : "?", note_, terminal_ ? "\x1b[K" : "", end);
     std::fflush(stderr);
 }
 
@@ -126,12 +127,24 @@ bool interrupted() {
     return interrupt_flag.load(std::memory_order_relaxed);
 }
 
-void install_interrupt_handler() {
+namespace {
+
+void handle_interrupts(int signal, int flags) {
     struct sigaction action {};
     action.sa_handler = [](int) { interrupt_flag.store(true, std::memory_order_relaxed); };
-    action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    action.sa_flags = flags;
+    sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void install_interrupt_handler() {
+    handle_interrupts(SIGINT, SA_RESETHAND);  // a second signal ends the process at once
+    handle_interrupts(SIGTERM, SA_RESETHAND);
+}
+
+void interrupt_on(int signal) {
+    handle_interrupts(signal, 0);
 }
 
 namespace {

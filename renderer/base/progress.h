@@ -41,13 +41,15 @@ class Progress {
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /// Reports that `done` of `total` units are complete. The first call starts the clock.
-    void update(uint64_t done);
+    /// Reports that `done` of `total` units are complete. The first call starts the clock. `note` is
+    /// appended to the message.
+    void update(uint64_t done, const std::string &note = {});
 
   private:
     void print(uint64_t done, const char *end) const;
 
     std::string task_;
+    std::string note_;
     uint64_t total_;
     std::string what_;
     bool quiet_;
@@ -86,6 +88,9 @@ class Waiting {
 bool interrupted();
 /// Installs the handler of SIGINT and SIGTERM. A second signal ends the process at once.
 void install_interrupt_handler();
+/// Installs the handler of another signal, which may arrive again without effect. A job of many
+/// processes gets the same signal from several sides.
+void interrupt_on(int signal);
 
 /// While an object lives, the first SIGINT or SIGTERM ends the process, with exit code 130. For
 /// long steps that do not poll `interrupted` and have no results yet.

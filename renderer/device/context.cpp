@@ -56,7 +56,14 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
             device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE)};
 }
 
-DeviceInfo select_device(const std::string &spec) {
+/// A device with its index "PLATFORM:DEVICE".
+struct IndexedDevice {
+    std::string index;
+    DeviceInfo info;
+};
+
+/// Returns the devices that `spec` selects, at least one.
+std::vector<IndexedDevice> select_devices(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
         const std::string fault = pocl_cache_fault();
@@ -82,34 +89,31 @@ DeviceInfo select_device(const std::string &spec) {
         listing +=
             fmt::format("\n  {}  {}  ({})", index[i], devices[i].name, devices[i].platform_name);
     }
-    const auto find = [&](auto &&matches) -> const DeviceInfo * {
+    std::vector<IndexedDevice> found;
+    const auto find = [&](auto &&matches) {
         for (size_t i = 0; i < devices.size(); ++i) {
             if (matches(i)) {
-                return &devices[i];
+                found.push_back({index[i], devices[i]});
             }
         }
-        return nullptr;
+        return !found.empty();
     };
     const auto is_gpu = [&](size_t i) { return !devices[i].is_cpu; };
-    const DeviceInfo *found = nullptr;
-    if (spec.empty()) {
-        found = find(is_gpu);
-        found = found != nullptr ? found : &devices.front();
-    } else if (in_lower_case(spec) == "gpu") {
-        found = find(is_gpu);
-    } else if (in_lower_case(spec) == "cpu") {
-        found = find([&](size_t i) { return devices[i].is_cpu; });
-    } else {
-        found = find([&](size_t i) { return index[i] == spec; });
-        found = found != nullptr ? found : find([&](size_t i) {
-            return in_lower_case(devices[i].name).find(in_lower_case(spec)) != std::string::npos;
-        });
-    }
-    if (found == nullptr) {
+    const auto is_cpu = [&](size_t i) { return devices[i].is_cpu; };
+    const auto has_index = [&](size_t i) { return index[i] == spec; };
+    const auto has_name = [&](size_t i) {
+        return in_lower_case(devices[i].name).find(in_lower_case(spec)) != std::string::npos;
+    };
+    const auto any = [](size_t) { return true; };
+    const bool matches = spec.empty()                   ? find(is_gpu) || find(any)
+                         : in_lower_case(spec) == "gpu" ? find(is_gpu)
+                         : in_lower_case(spec) == "cpu" ? find(is_cpu)
+                                                        : find(has_index) || find(has_name);
+    if (!matches) {
         throw input_error(
             fmt::format("no OpenCL device matches '{}'; devices are:{}", spec, listing));
     }
-    return *found;
+    return found;
 }
 
 /// Requests huge pages for a large buffer in host memory, before anything touches it. Kernels read
@@ -166,6 +170,14 @@ std::vector<DeviceInfo> list_devices() {
     return devices;
 }
 
+std::vector<std::string> matching_devices(const std::string &spec) {
+    std::vector<std::string> indices;
+    for (const IndexedDevice &device : select_devices(spec)) {
+        indices.push_back(device.index);
+    }
+    return indices;
+}
+
 std::shared_ptr<const BuiltProgram> RecentPrograms::find(const std::string &key) {
     const auto found = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const Entry &entry) { return entry.key == key; });
@@ -184,7 +196,7 @@ void RecentPrograms::add(const std::string &key, std::shared_ptr<const BuiltProg
 }
 
 DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
-    : info_(select_device(spec)) {
+    : info_(select_devices(spec).front().info) {
     keeps_binaries_ = binaries == Binaries::keep || !is_pocl(info_);
     if (is_pocl(info_)) {
         explain_pocl_crashes();

@@ -39,6 +39,10 @@ bool is_pocl(const DeviceInfo &device);
 /// devices are skipped.
 std::vector<DeviceInfo> list_devices();
 
+/// Returns "PLATFORM:DEVICE" of all devices that `spec` selects; `DeviceContext` opens the first.
+/// Throws as its constructor does.
+std::vector<std::string> matching_devices(const std::string &spec);
+
 /// Whether the binaries of compiled programs are kept on disk.
 enum class Binaries {
     keep,

@@ -334,14 +334,18 @@ void merge_film(FilmState &film, const FilmState &other) {
     for (size_t i = 0; i < merged.words.size(); ++i) {
         merged.words[i] += other.words[i];
     }
-    const uint32_t sums = FILM_PIXEL_SUMS(merged.variance, merged.sequences);
-    const bool squares = merged.variance && !merged.sequences;
-    for (size_t pixel = 0; pixel < merged.words.size(); pixel += pixel_words(merged)) {
+    carry_words(merged);
+    film = std::move(merged);
+}
+
+void carry_words(FilmState &film) {
+    const uint32_t sums = FILM_PIXEL_SUMS(film.variance, film.sequences);
+    const bool squares = film.variance && !film.sequences;
+    for (size_t pixel = 0; pixel < film.words.size(); pixel += pixel_words(film)) {
         for (uint32_t sum = 0; sum < sums; ++sum) {
-            film_carry_sum(merged.words.data() + pixel, sums, sum, film_step(sum, squares));
+            film_carry_sum(film.words.data() + pixel, sums, sum, film_step(sum, squares));
         }
     }
-    film = std::move(merged);
 }
 
 void save_film(const FilmState &film, const std::filesystem::path &path) {

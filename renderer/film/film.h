@@ -90,6 +90,10 @@ std::optional<FilmDifference> find_difference(const FilmState &first, const Film
 /// samples from the first on decide where a pixel stops, so that only passes can be merged.
 void merge_film(FilmState &film, const FilmState &other);
 
+/// Propagates the carries of the words, after words of several films were added. The sum of up to
+/// 2^39 films fits, because a word is below 2^24, except the top one.
+void carry_words(FilmState &film);
+
 /// Writes the film to a file: a checksum, a line that names the format, a line of JSON and the
 /// words. The write is atomic. Throws `Error` (run failed) that names the path.
 void save_film(const FilmState &film, const std::filesystem::path &path);
