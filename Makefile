@@ -21,7 +21,7 @@ install:
 
 programs: install
 	cmake --preset $(PRESET)
-	cmake --build --preset $(PRESET) -j $(JOBS) --target rtrays-render rtrays-reference rtrays-experiment
+	cmake --build --preset $(PRESET) -j $(JOBS) --target rtrays-render rtrays-reference rtrays-experiment mpi_programs
 
 # The Cornell box as an image for display and as an EXR with all layers.
 picture: programs
@@ -62,7 +62,8 @@ test-asan: install
 #     algorithm;
 #   * every scene with only the required features compiled in and with all features. This step starts
 #     over when resumed, but takes kernels from the cache;
-#   * the stages of all algorithms with each feature switched off.
+#   * the stages of all algorithms with each feature switched off;
+#   * films of many ranks with all algorithms, and ranks that are killed ten times, if MPI is installed.
 # The outputs are evidence and are kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/robustness/traversal.json --profile full --out results/chapter4/traversal
@@ -77,6 +78,7 @@ test-full: programs
 	mv results/same_bits.txt.new results/same_bits.txt
 	cmake --build --preset $(PRESET) -j $(JOBS) --target feature_build_test
 	RTRAYS_ALL_BUILDS=1 build/bin/feature_build_test
+	[ ! -x build/bin/rtrays-mpi ] || cluster/program_test.py build/bin/rtrays-mpi build/bin scenes --full
 
 # Compares Mitsuba 3 and Blender's Cycles (scripts/install --peers) with the Embree reference;
 # resumable. The exit code of the script is 77 if they are not installed. RTRAYS_MESHES adds

@@ -15,6 +15,9 @@ if(RTRAYS_BUILD_REFERENCE)
         install(TARGETS rtrays-experiment RUNTIME)
     endif()
 endif()
+if(TARGET rtrays-mpi)
+    install(TARGETS rtrays-mpi RUNTIME)
+endif()
 install(DIRECTORY scenes DESTINATION ${RTRAYS_SHARE} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY scripts DESTINATION ${RTRAYS_SHARE} USE_SOURCE_PERMISSIONS
         PATTERN "test_*.py" EXCLUDE PATTERN testing.py EXCLUDE PATTERN lint EXCLUDE
