@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <set>
 #include <thread>
 
@@ -65,85 +61,6 @@ FilmSums sum_films(const World &world, FilmSums film) {
     }
     return film;
 }
-
-/// Follows orders. `exchange` sends a report and returns the next order, `sum` follows
-/// `Order::Kind::sum`.
-template <class Exchange, class Sum>
-void follow(const Work &work, double delay, const Exchange &exchange, const Sum &sum) {
-    Report report;
-    for (;;) {
-        const Order order = exchange(report);
-        report = {};
-        if (order.kind == Order::Kind::end) {
-            return;
-        }
-        if (order.kind == Order::Kind::sum) {
-            sum();
-            continue;
-        }
-        const auto start = SteadyClock::now();
-        const uint64_t end = work.render(order.range);
-        std::this_thread::sleep_for(
-            std::chrono::duration<double>(seconds_since(start) * (delay - 1)));
-        report = {{order.range.begin, end}, seconds_since(start), interrupted() ? 1u : 0u};
-    }
-}
-
-/// The thread of rank 0 that renders. The main thread is the one that calls MPI.
-class LocalWorker {
-  public:
-    LocalWorker(const Work &work, double delay)
-        : thread_([this, &work, delay] {
-              try {
-                  follow(
-                      work, delay, [this](const Report &report) { return exchange(report); },
-                      [] {});
-              } catch (...) {
-                  const std::lock_guard<std::mutex> lock(mutex_);
-                  failure_ = std::current_exception();
-              }
-          }) {}
-    ~LocalWorker() {
-        send({Order::Kind::end, {0, 0}});
-        thread_.join();
-    }
-    LocalWorker(const LocalWorker &) = delete;
-    LocalWorker &operator=(const LocalWorker &) = delete;
-
-    void send(const Order &order) {
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            order_ = order;
-        }
-        changed_.notify_all();
-    }
-
-    /// Returns a report, or nothing. Throws what has ended the thread.
-    std::optional<Report> receive() {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (failure_) {
-            std::rethrow_exception(failure_);
-        }
-        return std::exchange(report_, std::nullopt);
-    }
-
-  private:
-    Order exchange(const Report &report) {
-        std::unique_lock<std::mutex> lock(mutex_);
-        report_ = report;
-        changed_.wait(lock, [this] { return order_.has_value(); });
-        const Order order = *order_;
-        order_.reset();
-        return order;
-    }
-
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::optional<Order> order_;
-    std::optional<Report> report_;
-    std::exception_ptr failure_;
-    std::thread thread_;  // the last member, because it uses the others
-};
 
 /// A time at which something is due again and again.
 class Deadline {
@@ -264,6 +181,7 @@ class Coordinator {
     void add_films(bool finished) {
         order_all(Order::Kind::sum);
         outcome_.film = sum_films(world_, work_.film());
+        ++outcome_.sums;
         waiting_ = {0};
         if (plan_.save && (finished || checkpoint_.is_due())) {
             plan_.save(outcome_.film);
@@ -322,134 +240,6 @@ class Coordinator {
 
 }  // namespace
 
-Preparation prepare_in_turn(const World &world, const std::function<Preparation()> &prepare) {
-    const auto attempt = [&]() -> Preparation {
-        try {
-            return prepare();
-        } catch (const Error &error) {
-            return {error.exit_code(), error.what(), {}};
-        }
-    };
-    Preparation preparation;
-    for (const bool first : {true, false}) {
-        if (first == (world.local_rank() == 0)) {
-            preparation = attempt();
-        }
-        world.wait_for_node();
-    }
-    return preparation;
-}
-
-namespace {
-
-/// What a rank says about itself before the render.
-struct Introduction {
-    std::string host;
-    Preparation preparation;
-
-    std::string to_text() const {
-        Json identity = Json::array();
-        for (const auto &[name, value] : preparation.identity) {
-            identity.push_back({name, value});
-        }
-        return Json{{"host", host},
-                    {"ended", preparation.ended.has_value()},
-                    {"code", static_cast<int>(preparation.ended.value_or(ExitCode::ok))},
-                    {"error", preparation.error},
-                    {"identity", identity}}
-            .dump();
-    }
-    static Introduction of(const std::string &text) {
-        const Json json = parse_json(text, "introduction of a rank");
-        Introduction introduction{json.at("host"), {{}, json.at("error"), {}}};
-        if (json.at("ended")) {
-            introduction.preparation.ended = static_cast<ExitCode>(json.at("code").get<int>());
-        }
-        for (const Json &pair : json.at("identity")) {
-            introduction.preparation.identity.emplace_back(pair.at(0), pair.at(1));
-        }
-        return introduction;
-    }
-};
-
-/// Returns how a rank differs from rank 0, which renders, or nothing.
-std::optional<std::string> find_difference(const Introduction &root, const Introduction &other,
-                                           size_t rank) {
-    const auto &expected = root.preparation.identity, &found = other.preparation.identity;
-    if (other.preparation.ended || expected.size() != found.size()) {
-        return fmt::format("rank {} ({}) runs another command", rank, other.host);
-    }
-    for (size_t i = 0; i < expected.size(); ++i) {
-        if (expected[i] != found[i]) {
-            return fmt::format("rank {} ({}) has {} {}, rank 0 ({}) has {}", rank, other.host,
-                               found[i].first, found[i].second, root.host, expected[i].second);
-        }
-    }
-    return std::nullopt;
-}
-
-struct Verdict {
-    std::optional<ExitCode> ended;
-    std::string message;
-};
-
-/// Adds a line, but not more than a screen of them.
-void add_line(std::string &text, size_t &lines, const std::string &line) {
-    constexpr size_t most = 20;
-    if (++lines <= most) {
-        text += (text.empty() ? "" : "\n") + line;
-    } else if (lines == most + 1) {
-        text += "\n...";
-    }
-}
-
-Verdict judge(const std::vector<Introduction> &ranks) {
-    Verdict verdict;
-    size_t lines = 0;
-    for (size_t rank = 0; rank < ranks.size(); ++rank) {
-        const Preparation &preparation = ranks[rank].preparation;
-        if (!preparation.error.empty() &&
-            (rank == 0 || preparation.error != ranks[0].preparation.error)) {
-            verdict.ended = verdict.ended ? verdict.ended : preparation.ended;
-            add_line(verdict.message, lines,
-                     rank == 0 ? preparation.error
-                               : fmt::format("rank {} ({}): {}", rank, ranks[rank].host,
-                                             preparation.error));
-        }
-    }
-    if (verdict.ended || (!ranks.empty() && ranks[0].preparation.ended)) {
-        return verdict.ended ? verdict : Verdict{ranks[0].preparation.ended, ""};
-    }
-    for (size_t rank = 1; rank < ranks.size(); ++rank) {
-        if (const auto difference = find_difference(ranks[0], ranks[rank], rank)) {
-            verdict.ended = ExitCode::bad_input;
-            add_line(verdict.message, lines, *difference);
-        }
-    }
-    return verdict;
-}
-
-}  // namespace
-
-std::optional<ExitCode> agree(const World &world, const Preparation &preparation) {
-    std::vector<Introduction> ranks;
-    for (const std::string &text :
-         world.gather(Introduction{world.host(), preparation}.to_text())) {
-        ranks.push_back(Introduction::of(text));
-    }
-    std::string decision;
-    if (world.is_root()) {
-        const Verdict verdict = judge(ranks);
-        if (!verdict.message.empty()) {
-            fmt::print(stderr, "rtrays-mpi: {}\n", verdict.message);
-        }
-        decision = verdict.ended ? std::to_string(static_cast<int>(*verdict.ended)) : "";
-    }
-    decision = world.broadcast(decision);
-    return decision.empty() ? std::nullopt
-                            : std::optional(static_cast<ExitCode>(std::stoi(decision)));
-}
-
 std::optional<Outcome> render_together(const World &world, const Work &work,
                                        const std::optional<Plan> &plan) {
     for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
@@ -464,17 +254,22 @@ std::optional<Outcome> render_together(const World &world, const Work &work,
     return std::nullopt;
 }
 
-Json describe_ranks(const World &world, const std::optional<Outcome> &outcome) {
+Json describe_job(const World &world, const std::optional<Outcome> &outcome) {
     const std::vector<std::string> hosts = world.gather(world.host());
-    Json ranks;
-    for (size_t rank = 0; rank < hosts.size() && outcome; ++rank) {
+    if (!outcome) {
+        return {};
+    }
+    Json ranks = Json::array();
+    for (size_t rank = 0; rank < hosts.size(); ++rank) {
         const RankRecord &record = outcome->ranks[rank];
         ranks.push_back({{"host", hosts[rank]},
                          {"ranges", record.ranges},
                          {"samples", record.samples},
                          {"seconds", record.seconds}});
     }
-    return ranks;
+    return {{"sums", outcome->sums},
+            {"summed_bytes", outcome->sums * outcome->film.words.size() * sizeof(int64_t)},
+            {"ranks", ranks}};
 }
 
 }  // namespace rtrays::cluster

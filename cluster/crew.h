@@ -6,31 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "cluster/worker.h"
 #include "cluster/world.h"
-#include "renderer/base/error.h"
 #include "renderer/base/json.h"
 #include "renderer/base/sample_ranges.h"
 
 namespace rtrays::cluster {
-
-/// The film of one rank, or of all.
-struct FilmSums {
-    std::vector<int64_t> words;   ///< of the exact sums; as a sum over ranks, without carries
-    std::vector<double> numbers;  ///< seconds, and counts below 2^53, which add as well
-    SampleRanges ranges;
-};
-
-/// What a rank can do.
-struct Work {
-    /// Renders samples; returns the end of those that are done, earlier if interrupted.
-    std::function<uint64_t(SampleRange)> render;
-    /// Returns all that this rank has rendered, and on rank 0 what was restored.
-    std::function<FilmSums()> film;
-};
 
 /// What rank 0 decides.
 struct Plan {
@@ -53,27 +36,11 @@ struct RankRecord {
 
 /// The end of a shared render, on rank 0.
 struct Outcome {
-    FilmSums film;  ///< of all ranks
+    FilmSums film;      ///< of all ranks
+    uint64_t sums = 0;  ///< how often films were added
     bool interrupted = false;
     std::vector<RankRecord> ranks;
 };
-
-/// Result of the preparation of a rank.
-struct Preparation {
-    std::optional<ExitCode> ended;  ///< the program ends, after --help for instance
-    std::string error;              ///< the reason, if an error ends it
-    /// Names and values that must be equal on all ranks, the most important first.
-    std::vector<std::pair<std::string, std::string>> identity;
-};
-
-/// Calls `prepare` on the first rank of each node, then on the others, which find its kernels in
-/// the cache. Turns an `Error` into a preparation.
-Preparation prepare_in_turn(const World &world, const std::function<Preparation()> &prepare);
-
-/// Compares the preparations of all ranks. Returns the exit code if the program ends: because all
-/// ranks end, because of errors, or because ranks differ. Rank 0 prints the reason, which names the
-/// ranks and what differs. All ranks call it.
-std::optional<ExitCode> agree(const World &world, const Preparation &preparation);
 
 /// Renders the film of `plan`, which only rank 0 has, until its samples or its time end, or until a
 /// signal interrupts any rank: SIGTERM, SIGINT or SIGUSR1. All ranks call it. Returns nothing
@@ -81,8 +48,9 @@ std::optional<ExitCode> agree(const World &world, const Preparation &preparation
 std::optional<Outcome> render_together(const World &world, const Work &work,
                                        const std::optional<Plan> &plan);
 
-/// Returns the records of all ranks as JSON, with their hosts. All ranks call it; the result is
-/// null except on rank 0, which alone passes an outcome.
-Json describe_ranks(const World &world, const std::optional<Outcome> &outcome);
+/// Returns the numbers of sums and of bytes that a rank has added to them, and the records of all
+/// ranks with their hosts, as JSON. All ranks call it; the result is null except on rank 0, which
+/// alone passes an outcome.
+Json describe_job(const World &world, const std::optional<Outcome> &outcome);
 
 }  // namespace rtrays::cluster

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "cluster/agreement.h"
 #include "cluster/commands.h"
-#include "cluster/crew.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/notice.h"
 

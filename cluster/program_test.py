@@ -213,18 +213,16 @@ class Ranks(unittest.TestCase):
 
     def test_a_signal_saves_the_film(self):
         """Any rank may get it."""
-        arguments = ("reference", *self.render_arguments("film", "--spp", 4000, "--quiet"))
-        process = self.start("-n", 2, PROGRAM, *arguments, "--checkpoint-interval", 100)
-        while len(self.children(process)) < 2:
-            time.sleep(0.01)
-        time.sleep(1)
+        arguments = ("reference", *self.render_arguments("film", "--spp", 6000, "--quiet"))
+        process = self.start("-n", 2, PROGRAM, *arguments, "--checkpoint-interval", 0.2)
+        self.wait_for(self.path / "film")
         os.kill(self.children(process)[1], signal.SIGTERM)
         code, errors = self.finish(process)
         self.assertEqual(code, 130, errors)
         self.assertIn("continue with --resume", errors)
-        self.assertLess(state_words(self.path / "film")[0]["ranges"][-1][1], 4000)
+        self.assertLess(state_words(self.path / "film")[0]["ranges"][-1][1], 6000)
         self.run_ranks(2, *arguments, "--resume")
-        self.run_serial("rtrays-reference", *self.render_arguments("whole", "--spp", 4000))
+        self.run_serial("rtrays-reference", *self.render_arguments("whole", "--spp", 6000))
         self.expect_same(state_words, "whole", "film")
 
     def test_a_full_disk_loses_nothing_that_was_there(self):
@@ -248,7 +246,7 @@ class Ranks(unittest.TestCase):
         stats = self.path / "stats.json"
         arguments = self.render_arguments("slow", "--spp", 8000, "--threads", 1, "--stats", stats)
         self.run_ranks(2, "reference", *arguments, RTRAYS_TEST_DELAY="1:10")
-        fast, slow = json.loads(stats.read_text())["ranks"]
+        fast, slow = json.loads(stats.read_text())["job"]["ranks"]
         self.assertEqual(fast["samples"] + slow["samples"], 8000)
         self.assertLess(slow["samples"], 0.25 * 8000)
         self.assertGreater(slow["ranges"], 2)

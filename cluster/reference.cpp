@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "cluster/agreement.h"
 #include "cluster/commands.h"
 #include "cluster/crew.h"
 #include "reference/command.h"
@@ -84,8 +85,8 @@ class Reference {
             [this] { return to_sums(renderer_->film(), renderer_->seconds()); }};
         const std::optional<Outcome> outcome = render_together(
             world_, work, world_.is_root() ? std::optional(make_plan()) : std::nullopt);
-        const Json ranks = describe_ranks(world_, outcome);
-        return outcome ? finish(*outcome, ranks) : ExitCode::ok;
+        const Json job = describe_job(world_, outcome);
+        return outcome ? finish(*outcome, job) : ExitCode::ok;
     }
 
   private:
@@ -137,7 +138,7 @@ class Reference {
         checkpoint_.seconds = sums.numbers.at(0);
     }
 
-    ExitCode finish(const Outcome &outcome, const Json &ranks) {
+    ExitCode finish(const Outcome &outcome, const Json &job) {
         take(outcome.film);
         if (!checkpoint_.finished()) {
             reference::report_interruption(options_, checkpoint_.film.count());
@@ -145,7 +146,7 @@ class Reference {
         }
         reference::write_results(options_, steps(), checkpoint_,
                                  checkpoint_.film.develop(checkpoint_.seconds),
-                                 {{"threads", options_.settings.threads}, {"ranks", ranks}});
+                                 {{"threads", options_.settings.threads}, {"job", job}});
         return ExitCode::ok;
     }
 

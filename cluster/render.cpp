@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cluster/agreement.h"
 #include "cluster/commands.h"
 #include "cluster/crew.h"
 #include "renderer/base/clock.h"
@@ -62,8 +63,8 @@ class Renderer {
             [this] { return to_sums(session_->film()); }};
         const std::optional<Outcome> outcome = render_together(
             world_, work, world_.is_root() ? std::optional(make_plan()) : std::nullopt);
-        const Json ranks = describe_ranks(world_, outcome);
-        return outcome ? finish(*outcome, ranks, seconds_since(start)) : ExitCode::ok;
+        const Json job = describe_job(world_, outcome);
+        return outcome ? finish(*outcome, job, seconds_since(start)) : ExitCode::ok;
     }
 
   private:
@@ -134,9 +135,9 @@ class Renderer {
         return film;
     }
 
-    ExitCode finish(const Outcome &outcome, const Json &ranks, double seconds) const {
+    ExitCode finish(const Outcome &outcome, const Json &job, double seconds) const {
         Json report = session_->report();
-        report["ranks"] = ranks;
+        report["job"] = job;
         const FilmState film = film_of(outcome.film);
         const bool complete =
             options_.seconds ? !outcome.interrupted
