@@ -408,6 +408,29 @@ class Program(unittest.TestCase):
         self.assertNotEqual(self.words(camera), self.words(whole))
         self.assertEqual(self.words(merged), self.words(whole))
 
+    def test_a_resumed_film_is_filled_where_samples_are_missing(self):
+        whole = self.film("whole", "--spp", 9)
+        gaps = self.film("gaps", "--samples", "2:4")
+        self.film("high", "--samples", "6:7")
+        merged = self.path / "merged"
+        result = self.run_program("merge", gaps, self.path / "high", "-o", self.output(),
+                                  "--state", merged)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.film("merged", "--spp", 9, "--resume")
+        self.assertEqual(self.words(merged), self.words(whole))
+        self.assertIn(b"[[0,9]]", merged.read_bytes())
+
+    def test_printed_parts_have_the_bits_of_one_render(self):
+        whole = self.film("whole", "--spp", 7)
+        shards = subprocess.run(
+            [pathlib.Path(__file__).parent.parent / "scripts" / "shards", "--programs",
+             pathlib.Path(PROGRAM).parent, CORNELL, "7", "2", "-o", self.output(), "--state",
+             self.path / "merged", *SMALL], capture_output=True, text=True, check=True)
+        for line in shards.stdout.splitlines():
+            subprocess.run(["sh", "-c", line], check=True, timeout=300)
+        self.assertEqual(self.words(self.path / "merged"), self.words(whole))
+        self.assertTrue(self.output().exists())
+
     def test_an_existing_film_is_not_replaced_unless_asked(self):
         state = self.film("film", "--spp", "2")
         before = state.read_bytes()
