@@ -114,7 +114,7 @@ class Coordinator {
             }
             show_progress();
             if (!news) {
-                std::this_thread::sleep_for(std::chrono::microseconds(200));
+                std::this_thread::sleep_for(std::chrono::microseconds(500));
             }
         }
     }

@@ -159,6 +159,21 @@ class Ranks(unittest.TestCase):
         self.run_serial("rtrays-render", *self.render_arguments("film", "--spp", 12, "--resume"))
         self.expect_same(film_words, "whole", "film")
 
+    def test_the_documented_commands_run(self):
+        """Those for a laptop; the others need GPUs or a batch system."""
+        page = (SCENES.resolve().parent / "docs" / "cluster.md").read_text()
+        section = page.split("## A laptop\n")[1].split("\n## ")[0]
+        lines = section.split("```sh\n")[1].split("```")[0].splitlines()
+        self.assertEqual(len(lines), 2)
+        (self.path / "build").mkdir()
+        (self.path / "build" / "bin").symlink_to(FOLDER.resolve())
+        (self.path / "scenes").symlink_to(SCENES.resolve())
+        for line in lines:
+            result = subprocess.run(line, shell=True, cwd=self.path, env=ENVIRONMENT, timeout=120,
+                                    capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(self.image("reference").exists() and self.image("box").exists())
+
     def wait_for(self, state):
         for _ in range(6000):
             if state.exists():
