@@ -199,7 +199,7 @@ class Coordinator {
         const uint64_t done = plan_.seconds
                                   ? static_cast<uint64_t>(std::min(elapsed, *plan_.seconds) * 1000)
                                   : plan_.wanted - missing + rendered_;
-        progress_.update(done, describe_speed());
+        progress_.update(done, [this] { return describe_speed(); });
     }
 
     std::string describe_speed() const {

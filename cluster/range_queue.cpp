@@ -6,9 +6,13 @@
 namespace rtrays::cluster {
 
 void RangeQueue::note(size_t rank, uint64_t samples, double seconds) {
-    if (samples > 0) {
-        rates_[rank] = static_cast<double>(samples) / std::max(seconds, 1e-9);
+    if (samples == 0) {
+        return;
     }
+    const double rate = static_cast<double>(samples) / std::max(seconds, 1e-9);
+    known_ += rates_[rank] == 0 ? 1 : 0;
+    known_sum_ += rate - rates_[rank];
+    rates_[rank] = rate;
 }
 
 std::optional<SampleRange> RangeQueue::next(size_t rank, double horizon) {
@@ -34,13 +38,9 @@ std::optional<SampleRange> RangeQueue::next(size_t rank, double horizon) {
 }
 
 double RangeQueue::total_rate() const {
-    double sum = 0;
-    size_t known = 0;
-    for (const double rate : rates_) {
-        sum += rate;
-        known += rate > 0 ? 1 : 0;
-    }
-    return known > 0 ? sum / static_cast<double>(known) * static_cast<double>(rates_.size()) : 0;
+    return known_ > 0
+               ? known_sum_ / static_cast<double>(known_) * static_cast<double>(rates_.size())
+               : 0;
 }
 
 }  // namespace rtrays::cluster

@@ -40,6 +40,8 @@ class RangeQueue {
   private:
     SampleRanges left_;
     std::vector<double> rates_;
+    double known_sum_ = 0;  ///< of the speeds that are known
+    size_t known_ = 0;
     size_t first_;  ///< of the ranges with samples left
 };
 

@@ -60,8 +60,7 @@ Progress::~Progress() {
     }
 }
 
-void Progress::update(uint64_t done, const std::string &note) {
-    note_ = note;
+void Progress::update(uint64_t done, const std::function<std::string()> &note) {
     const auto now = SteadyClock::now();
     if (!started_) {
         started_ = true;
@@ -76,6 +75,7 @@ void Progress::update(uint64_t done, const std::string &note) {
     }
     last_print_ = now;
     drawn_ = terminal_;
+    note_ = note ? note() : "";
     print(done, terminal_ ? "" : "\n");
 }
 

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -41,9 +42,9 @@ class Progress {
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /// Reports that `done` of `total` units are complete. The first call starts the clock. `note` is
-    /// appended to the message.
-    void update(uint64_t done, const std::string &note = {});
+    /// Reports that `done` of `total` units are complete. The first call starts the clock. What
+    /// `note` returns is appended to a message that is printed.
+    void update(uint64_t done, const std::function<std::string()> &note = {});
 
   private:
     void print(uint64_t done, const char *end) const;
