@@ -182,6 +182,27 @@ TEST(PixelSums, do_not_depend_on_order_or_split) {
     }
 }
 
+/// The largest numbers and numbers of either sign at every shift fill the words the most.
+TEST(PixelSums, add_many_at_once_as_one_by_one) {
+    const double largest = std::nextafter(PixelSums::limit, 0.0);
+    for (int exponent = 0; exponent < 140; ++exponent) {
+        const double sample = std::ldexp(largest, -exponent);
+        PixelSums single, many;
+        {
+            PixelSums::Adder adder(many);
+            for (int i = 0; i < 500; ++i) {
+                adder.add(Spectrum(sample, -sample, i % 3 == 0 ? -sample : sample));
+            }
+        }
+        for (int i = 0; i < 500; ++i) {
+            single.add(Spectrum(sample, -sample, i % 3 == 0 ? -sample : sample));
+        }
+        ASSERT_TRUE(same_words(single, many)) << exponent;
+        ASSERT_DOUBLE_EQ(many.mean(500)[1], -sample);
+        ASSERT_EQ(many.variance_of_mean(500)[0], 0.0);
+    }
+}
+
 /// Adds the words of many films as other processes do, and carries once.
 TEST(PixelSums, carry_sums_of_words) {
     PixelSums one;
