@@ -12,7 +12,7 @@ STIFFNESS ?= results/chapter4/stiffness
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,scripts/results report)
 
-.PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
+.PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation scaling stability stiffness instructions bench references format lint clean
 
 all: build
 
@@ -90,6 +90,12 @@ peers: programs
 specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
+
+# Measures how a reference scales with the ranks of this machine (scripts/install --mpi). Needs an
+# idle machine.
+scaling: programs
+	scripts/scaling build/bin/rtrays-mpi scenes/cornell_box/scene.json > results/scaling.md.new
+	mv results/scaling.md.new results/scaling.md
 
 # Renders stiff and extreme cases with every algorithm that supports them, and writes a table. The
 # exit code of the program is 3 if a case fails.

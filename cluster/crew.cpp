@@ -107,6 +107,7 @@ class Coordinator {
             if (waiting_.size() == world_.size()) {
                 if (is_complete_) {
                     order_all(Order::Kind::end);
+                    outcome_.seconds = seconds_since(start_);
                     return std::move(outcome_);
                 }
                 is_complete_ = is_finished();
@@ -267,7 +268,8 @@ Json describe_job(const World &world, const std::optional<Outcome> &outcome) {
                          {"samples", record.samples},
                          {"seconds", record.seconds}});
     }
-    return {{"sums", outcome->sums},
+    return {{"seconds", outcome->seconds},
+            {"sums", outcome->sums},
             {"summed_bytes", outcome->sums * outcome->film.words.size() * sizeof(int64_t)},
             {"ranks", ranks}};
 }

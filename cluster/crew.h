@@ -36,8 +36,9 @@ struct RankRecord {
 
 /// The end of a shared render, on rank 0.
 struct Outcome {
-    FilmSums film;      ///< of all ranks
-    uint64_t sums = 0;  ///< how often films were added
+    FilmSums film;       ///< of all ranks
+    uint64_t sums = 0;   ///< how often films were added
+    double seconds = 0;  ///< from the first order to the end, with sums and checkpoints
     bool interrupted = false;
     std::vector<RankRecord> ranks;
 };
@@ -48,9 +49,9 @@ struct Outcome {
 std::optional<Outcome> render_together(const World &world, const Work &work,
                                        const std::optional<Plan> &plan);
 
-/// Returns the numbers of sums and of bytes that a rank has added to them, and the records of all
-/// ranks with their hosts, as JSON. All ranks call it; the result is null except on rank 0, which
-/// alone passes an outcome.
+/// Returns the seconds of the render, the numbers of sums and of bytes that a rank has added to
+/// them, and the records of all ranks with their hosts, as JSON. All ranks call it; the result is
+/// null except on rank 0, which alone passes an outcome.
 Json describe_job(const World &world, const std::optional<Outcome> &outcome);
 
 }  // namespace rtrays::cluster

@@ -13,7 +13,6 @@
 #include "cluster/crew.h"
 #include "reference/command.h"
 #include "reference/renderer.h"
-#include "renderer/base/clock.h"
 #include "renderer/base/commit.h"
 
 namespace rtrays::cluster {

@@ -7,7 +7,6 @@
 #include "cluster/agreement.h"
 #include "cluster/commands.h"
 #include "cluster/crew.h"
-#include "renderer/base/clock.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/notice.h"
@@ -57,14 +56,13 @@ class Renderer {
     }
 
     ExitCode run() {
-        const auto start = SteadyClock::now();
         const Work work{
             [this](SampleRange range) { return session_->render(range.begin, range.end); },
             [this] { return to_sums(session_->film()); }};
         const std::optional<Outcome> outcome = render_together(
             world_, work, world_.is_root() ? std::optional(make_plan()) : std::nullopt);
         const Json job = describe_job(world_, outcome);
-        return outcome ? finish(*outcome, job, seconds_since(start)) : ExitCode::ok;
+        return outcome ? finish(*outcome, job) : ExitCode::ok;
     }
 
   private:
@@ -135,7 +133,7 @@ class Renderer {
         return film;
     }
 
-    ExitCode finish(const Outcome &outcome, const Json &job, double seconds) const {
+    ExitCode finish(const Outcome &outcome, const Json &job) const {
         Json report = session_->report();
         report["job"] = job;
         const FilmState film = film_of(outcome.film);
@@ -160,7 +158,7 @@ class Renderer {
             print_summary(
                 options_,
                 samples * static_cast<uint64_t>(film.width) * static_cast<uint64_t>(film.height),
-                seconds);
+                outcome.seconds);
         }
         return ExitCode::ok;
     }
