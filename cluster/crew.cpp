@@ -122,7 +122,11 @@ class Coordinator {
 
   private:
     bool is_finished() const { return outcome_.interrupted || queue_.empty() || end_.is_due(); }
-    bool must_pause() const { return is_finished() || checkpoint_.is_due() || preview_.is_due(); }
+    /// An interval may be 0; the films are then added after every range.
+    bool must_pause() const {
+        return is_finished() ||
+               (rendered_ > summed_ && (checkpoint_.is_due() || preview_.is_due()));
+    }
 
     /// Receives all reports that have arrived; returns whether there were any.
     bool collect() {
@@ -183,6 +187,7 @@ class Coordinator {
         order_all(Order::Kind::sum);
         outcome_.film = sum_films(world_, work_.film());
         ++outcome_.sums;
+        summed_ = rendered_;
         waiting_ = {0};
         if (plan_.save && (finished || checkpoint_.is_due())) {
             plan_.save(outcome_.film);
@@ -230,9 +235,9 @@ class Coordinator {
     const Plan &plan_;
     RangeQueue queue_;
     LocalWorker local_;
-    std::set<size_t> waiting_;  ///< ranks without an order
-    bool is_complete_ = false;  ///< the film of the outcome is the last one
-    uint64_t rendered_ = 0;
+    std::set<size_t> waiting_;            ///< ranks without an order
+    bool is_complete_ = false;            ///< the film of the outcome is the last one
+    uint64_t rendered_ = 0, summed_ = 0;  ///< samples so far, and at the last sum
     Outcome outcome_;
     const SteadyClock::time_point start_ = SteadyClock::now();
     Deadline checkpoint_, preview_, end_;

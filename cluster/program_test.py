@@ -155,7 +155,8 @@ class Ranks(unittest.TestCase):
     def test_films_go_on_with_other_numbers_of_ranks(self):
         self.run_serial("rtrays-render", *self.render_arguments("whole", "--spp", 12))
         self.run_serial("rtrays-render", *self.render_arguments("film", "--samples", "3:6"))
-        self.run_ranks(2, "render", *self.render_arguments("film", "--spp", 9, "--resume"))
+        self.run_ranks(2, "render", *self.render_arguments("film", "--spp", 9, "--resume"),
+                       "--checkpoint-interval", 0, "--preview", 0)
         self.run_serial("rtrays-render", *self.render_arguments("film", "--spp", 12, "--resume"))
         self.expect_same(film_words, "whole", "film")
 
