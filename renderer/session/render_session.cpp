@@ -115,6 +115,9 @@ FilmState RenderSession::film() const {
     film.out_of_range += counters.out_of_range;
     film.device_seconds += state_->device_seconds();
     film.wall_seconds += state_->wall_seconds + state_->pilot.wall_seconds;
+    if (state_->convergence != nullptr) {
+        film.convergence = state_->convergence->state();
+    }
     return film;
 }
 

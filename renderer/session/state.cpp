@@ -442,7 +442,7 @@ FilmState RenderSession::State::film_header() const {
     header.seed = integrator.seed;
     header.config = config;
     if (convergence != nullptr) {
-        header.convergence = convergence->state();
+        header.convergence = {convergence->rule(), {}, {}};
     }
     return header;
 }

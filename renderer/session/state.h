@@ -143,7 +143,7 @@ struct RenderSession::State {
     void reset_counts();
     double device_seconds() const;
 
-    /// Returns the film's metadata, without its words.
+    /// Returns the film's metadata, without its words and the state of its pixels.
     FilmState film_header() const;
 
     /// Returns the number of 4-byte words of stored light vertices per path in flight.
